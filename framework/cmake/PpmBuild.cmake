@@ -1,0 +1,20 @@
+# Flags that every target of this project is compiled with. No global -march: the ABI of Eigen types must be the baseline's.
+find_program(PPM_CCACHE ccache)
+if(PPM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PPM_CCACHE})
+endif()
+find_program(PPM_MOLD mold)
+if(PPM_MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-Og -g1 -DPPM_DEBUG")
+
+add_library(ppm_flags INTERFACE)
+target_include_directories(ppm_flags INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
+target_compile_options(ppm_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wno-psabi
+                       $<$<BOOL:${PPM_WERROR}>:-Werror> -ffp-contract=off)
+if(PPM_SANITIZE)
+  add_compile_options(-fsanitize=${PPM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${PPM_SANITIZE})
+endif()

@@ -1,0 +1,67 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/core/error.hpp"
+
+namespace ppm {
+
+/// A tree of values that remembers where each was written. Our own, converted once from YAML, so that yaml-cpp's
+/// surprises (duplicate keys, `010`, `yes`) are errors here and nowhere else.
+class Config {
+ public:
+  enum class Kind { null, scalar, sequence, map };
+  struct Entry;
+
+  Config() = default;
+  static Config scalar(std::string text, Place place, bool quoted = false);
+
+  Kind kind() const { return kind_; }
+  const Place& place() const { return place_; }
+  /// Text of a scalar, as written.
+  const std::string& text() const { return text_; }
+  /// True for a scalar that stood in quotes: always a string.
+  bool quoted() const { return quoted_; }
+  const std::vector<Config>& items() const { return items_; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  /// The value at a key of a map, or null.
+  const Config* find(const std::string& key) const;
+  /// Sets a key of a map (added at the end if it is new). A null value becomes a map.
+  void set(const std::string& key, Place key_place, Config value);
+  /// The value at a key for changing it, or null.
+  Config* find(const std::string& key);
+  std::vector<Config>& items() { return items_; }
+
+  /// Block-style YAML text of the tree, for effective configurations: parsing it again gives the same tree.
+  std::string to_yaml() const;
+
+ private:
+  friend class ConfigBuilder;
+  Kind kind_ = Kind::null;
+  Place place_;
+  std::string text_;
+  bool quoted_ = false;
+  std::vector<Config> items_;
+  std::vector<Entry> entries_;
+};
+
+struct Config::Entry {
+  std::string key;
+  Place key_place;
+  Config value;
+};
+
+const char* kind_name(Config::Kind kind);
+
+/// Parses YAML text; `name` stands for the file in places. Throws ConfigError: syntax, duplicate keys, anchors and merges
+/// (not supported: a graph is read from top to bottom), more than one document.
+Config parse_yaml(const std::string& text, const std::string& name);
+/// Reads and parses a file. Throws ConfigError where it cannot be read.
+Config load_yaml(const std::filesystem::path& file);
+
+/// The candidate most like `word` (edit distance at most a third of its length, at least 1), or "" where none is.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace ppm

@@ -1,0 +1,50 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "framework/graph/graph.hpp"
+#include "framework/slam/particle_set.hpp"
+
+namespace ppm {
+
+/// Wall time of a node, one value a frame in which it ran. In a joint loop over particles the loop's wall time is shared out
+/// by the time that each node's ticks took.
+struct NodeTimes {
+  std::vector<double> ms;
+};
+
+/// What a run gives back.
+struct RunSummary {
+  std::int64_t frames = 0;
+  double wall_s = 0;       ///< of the frames, without open() and close()
+  bool interrupted = false;
+  std::map<std::string, NodeTimes> nodes;
+};
+
+/// Runs a graph: nodes in file order, frame by frame, until the source ends, `max_frames` are done or `stop` is set (the frame
+/// is finished first). Consecutive ParticleModules run as one loop over particles.
+class Executor {
+ public:
+  Executor(Graph& graph, Context& context) : graph_(graph), context_(context) {}
+  /// Called after each frame with (frames done, frames expected or 0).
+  std::function<void(std::int64_t, std::int64_t)> on_frame;
+
+  RunSummary run(std::int64_t max_frames, const std::atomic<bool>& stop);
+  const ParticleSet& belief() const { return *graph_.belief_; }
+
+ private:
+  void tick_all();
+  std::size_t tick_loop(std::size_t first);
+  void enter(const Node& node);
+  void pass_through(Node& node);
+
+  Graph& graph_;
+  Context& context_;
+  RunSummary summary_;
+};
+
+}  // namespace ppm

@@ -1,0 +1,79 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/config/config.hpp"
+#include "framework/graph/registry.hpp"
+
+namespace ppm {
+
+/// When a node runs. It runs in frame f if from_frame <= f <= until_frame and (f - from_frame) % every == 0; with at_end only
+/// once, after the last frame. A node that does not run is the identity.
+struct Gate {
+  std::int64_t from_frame = 0;
+  std::int64_t until_frame = std::numeric_limits<std::int64_t>::max();
+  std::int64_t every = 1;
+  bool at_end = false;
+  bool open(std::int64_t frame) const {
+    return !at_end && frame >= from_frame && frame <= until_frame && (frame - from_frame) % every == 0;
+  }
+};
+
+struct Node {
+  std::string name;
+  std::string module_name;
+  Gate gate;
+  Place place;
+  std::unique_ptr<Module> module;
+  struct Edge {
+    std::string port, from;  ///< own input port; "node.port" above
+  };
+  std::vector<Edge> edges;
+};
+
+/// One `--set node.key=value`.
+struct Override {
+  std::string node, key;
+  Config value;  ///< its place says "--set node.key=value" and the column of the value
+};
+/// Parses "node.key=value" (also "seed=7"): throws ConfigError.
+Override parse_override(const std::string& text);
+
+/// A program of modules, wired and checked, with parameters set: all that can be known before the first frame has been checked.
+class Graph {
+ public:
+  /// Builds from a parsed file. Throws one ConfigError with every mistake of the file.
+  static Graph build(const Config& file, const Registry& registry, const std::vector<Override>& overrides = {});
+
+  const std::string& name() const { return name_; }
+  std::uint64_t seed() const { return seed_; }
+  std::vector<Node>& nodes() { return nodes_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  /// The module of the first node that is a T, or null.
+  template <class T>
+  T* first() const {
+    for (const auto& n : nodes_)
+      if (auto* t = dynamic_cast<T*>(n.module.get())) return t;
+    return nullptr;
+  }
+  /// The graph as it runs: every parameter of every node with its value in force. Loading it gives the same graph.
+  std::string effective_yaml() const;
+  /// The `plugins:` of a graph file (paths relative to the file), read before build().
+  static std::vector<std::pair<std::string, Place>> plugins(const Config& file);
+
+ private:
+  friend class GraphBuilder;
+  friend class Executor;
+  std::string name_;
+  std::uint64_t seed_ = 0;
+  std::vector<std::string> plugins_;
+  std::vector<Node> nodes_;
+  std::vector<std::unique_ptr<std::shared_ptr<const void>>> slots_;
+  std::unique_ptr<ParticleSet> belief_;
+};
+
+}  // namespace ppm

@@ -1,0 +1,47 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+
+#include "framework/core/parallel.hpp"
+#include "framework/graph/registry.hpp"
+#include "framework/slam/particle_set.hpp"
+
+namespace ppm {
+
+/// One module under test, without a graph.
+///   Harness h(registry, "weighting.gaussian", "{stride: 2}");
+///   h.input("frame", frame); h.belief().init(...); h.tick();
+/// Throws what the module throws; ConfigError for bad parameters.
+class Harness {
+ public:
+  Harness(const Registry& registry, const std::string& module, const std::string& params_yaml = "{}", int threads = 1,
+          std::uint64_t seed = 1, std::filesystem::path out_dir = {});
+  template <class T>
+  void input(const std::string& port, std::shared_ptr<const T> value) {
+    *slot(port) = std::move(value);
+  }
+  template <class T>
+  std::shared_ptr<const T> output(const std::string& port) {
+    return std::static_pointer_cast<const T>(*slot(port));
+  }
+  ParticleSet& belief() { return belief_; }
+  Module& module() { return *module_; }
+  Context& context() { return context_; }
+  /// Runs open() before the first call, then tick() for the next frame. False when the module said end of stream.
+  bool tick();
+  void close();
+
+ private:
+  std::shared_ptr<const void>* slot(const std::string& port);
+  Workers workers_;
+  Log log_{LogLevel::warning};
+  Metrics metrics_;
+  Context context_;
+  ParticleSet belief_;
+  std::unique_ptr<Module> module_;
+  std::map<std::string, std::shared_ptr<const void>> slots_;
+  bool opened_ = false;
+};
+
+}  // namespace ppm

@@ -1,0 +1,131 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "framework/core/error.hpp"
+
+namespace ppm {
+
+class Module;
+class ParticleSet;
+struct Frame;
+
+/// Name of a port's type for messages and pages. Specialise for each type that travels on an edge.
+template <class T>
+struct PortType;
+template <>
+struct PortType<Frame> {
+  static constexpr std::string_view name = "frame";
+};
+template <>
+struct PortType<ParticleSet> {
+  static constexpr std::string_view name = "belief";
+};
+
+/// What the belief must carry before a node and carries after it. Facets are words: "map.ppm", "prediction", "weights".
+/// "map.*" asks for a map of any kind. A node that gives "map.x" drops every other map facet.
+struct Facets {
+  std::vector<std::string> needs;
+  std::vector<std::string> gives;
+  std::vector<std::string> drops;
+};
+
+enum class PortDirection { in, out, belief };
+
+/// The part of a port that the graph sees. Registers itself with its module.
+class PortBase {
+ public:
+  PortBase(Module* owner, PortDirection direction, std::string name, std::string doc, std::type_index type,
+           std::string_view type_name);
+  PortBase(const PortBase&) = delete;
+  PortBase& operator=(const PortBase&) = delete;
+
+  const std::string& name() const { return name_; }
+  const std::string& doc() const { return doc_; }
+  PortDirection direction() const { return direction_; }
+  std::type_index type() const { return type_; }
+  std::string_view type_name() const { return type_name_; }
+  bool required() const { return required_; }
+  /// Out ports: the In port whose value passes through when the node is gated off, or null.
+  const PortBase* identity() const { return identity_; }
+
+ protected:
+  friend class GraphBuilder;
+  friend class Executor;
+  friend class Harness;
+  std::string name_, doc_;
+  PortDirection direction_;
+  std::type_index type_;
+  std::string_view type_name_;
+  bool required_ = true;
+  const PortBase* identity_ = nullptr;
+  std::shared_ptr<const void>* slot_ = nullptr;  // of the edge; set when the graph is built
+};
+
+/// An input: the value that an output above made in this frame. Immutable, shared.
+template <class T>
+class In : public PortBase {
+ public:
+  In(Module* owner, std::string name, std::string doc)
+      : PortBase(owner, PortDirection::in, std::move(name), std::move(doc), typeid(T), PortType<T>::name) {}
+  std::shared_ptr<const T> get() const {
+    PPM_CHECK(slot_ && *slot_, "input '{}' has no value", name_);
+    return std::static_pointer_cast<const T>(*slot_);
+  }
+  const T& operator*() const { return *get(); }
+  std::shared_ptr<const T> operator->() const { return get(); }
+};
+
+/// An output. A node that can be gated off names the input that stands in for it then; sources cannot be gated.
+template <class T>
+class Out : public PortBase {
+ public:
+  Out(Module* owner, std::string name, std::string doc, const In<T>* identity = nullptr)
+      : PortBase(owner, PortDirection::out, std::move(name), std::move(doc), typeid(T), PortType<T>::name) {
+    identity_ = identity;
+  }
+  void set(std::shared_ptr<const T> value) {
+    PPM_CHECK(slot_, "output '{}' is not wired to a graph", name_);
+    *slot_ = std::move(value);
+  }
+};
+
+/// Access to the belief, which the executor owns. It needs no `in:` line.
+class BeliefPortBase : public PortBase {
+ public:
+  BeliefPortBase(Module* owner, Facets facets, bool writes);
+  const Facets& facets() const { return facets_; }
+  bool writes() const { return writes_; }
+
+ protected:
+  friend class GraphBuilder;
+  friend class Executor;
+  friend class Harness;
+  Facets facets_;
+  bool writes_;
+  ParticleSet* belief_ = nullptr;
+};
+
+template <class T>
+class InOut;
+/// The belief, to be changed.
+template <>
+class InOut<ParticleSet> : public BeliefPortBase {
+ public:
+  InOut(Module* owner, Facets facets) : BeliefPortBase(owner, std::move(facets), true) {}
+  ParticleSet& operator*() const { return *belief_; }
+  ParticleSet* operator->() const { return belief_; }
+};
+/// The belief, to be read (sinks).
+template <>
+class In<ParticleSet> : public BeliefPortBase {
+ public:
+  In(Module* owner, Facets facets) : BeliefPortBase(owner, std::move(facets), false) {}
+  const ParticleSet& operator*() const { return *belief_; }
+  const ParticleSet* operator->() const { return belief_; }
+};
+
+}  // namespace ppm

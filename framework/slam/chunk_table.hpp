@@ -1,0 +1,60 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "framework/core/cow.hpp"
+
+namespace ppm {
+
+/// Integer coordinates of a spatial cell.
+using Cell = Eigen::Vector3i;
+struct CellHash {
+  std::size_t operator()(const Cell& c) const {
+    auto h = static_cast<std::uint64_t>(static_cast<std::uint32_t>(c.x())) * 0x9E3779B97F4A7C15ull;
+    h = (h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(c.y()))) * 0xC2B2AE3D27D4EB4Full;
+    h = (h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(c.z()))) * 0x165667B19E3779F9ull;
+    return static_cast<std::size_t>(h ^ (h >> 29));
+  }
+};
+
+/// The storage of a map: a table of copy-on-write chunks in the order of their creation, found by spatial cell.
+/// Copying a table copies pointers; writing to a chunk clones it first if another table shares it.
+/// A chunk number stays valid for the life of the table and of its copies; chunks are never removed (an empty one stays).
+/// The index (cell -> number) is itself shared until a chunk is added.
+/// Chunk: a copyable struct of Cow parts, for example {Cow<Geometry>, Cow<Texels>}.
+template <class Chunk>
+class ChunkTable {
+ public:
+  std::size_t size() const { return chunks_.size(); }
+  const Chunk& operator[](std::size_t i) const { return chunks_[i]; }
+  Chunk& edit(std::size_t i) { return chunks_[i]; }
+  const std::vector<Chunk>& chunks() const { return chunks_; }
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  std::uint32_t find(const Cell& cell) const {
+    if (!index_) return kNone;
+    auto it = index_->find(cell);
+    return it == index_->end() ? kNone : it->second;
+  }
+  std::uint32_t add(const Cell& cell, Chunk chunk) {
+    if (!index_) index_ = Cow<Index>::make();
+    auto number = static_cast<std::uint32_t>(chunks_.size());
+    index_.write().emplace(cell, number);
+    chunks_.push_back(std::move(chunk));
+    return number;
+  }
+  /// Bytes of the table itself (pointers and index), without the chunks.
+  std::int64_t bytes() const {
+    auto entries = index_ ? static_cast<std::int64_t>(index_->size()) : 0;
+    return static_cast<std::int64_t>(chunks_.capacity() * sizeof(Chunk)) + entries * 32;
+  }
+
+ private:
+  using Index = std::unordered_map<Cell, std::uint32_t, CellHash>;
+  std::vector<Chunk> chunks_;
+  Cow<Index> index_;
+};
+
+}  // namespace ppm

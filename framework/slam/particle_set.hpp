@@ -1,0 +1,90 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <typeindex>
+#include <vector>
+
+#include "framework/core/error.hpp"
+#include "framework/core/se3.hpp"
+#include "framework/slam/map.hpp"
+#include "framework/slam/prediction.hpp"
+#include "framework/slam/trajectory.hpp"
+
+namespace ppm {
+
+/// A column of a ParticleSet whose type only its owner knows.
+class ColumnBase {
+ public:
+  virtual ~ColumnBase() = default;
+  virtual void gather(const std::vector<std::uint32_t>& ancestors) = 0;
+  virtual void resize(std::size_t n) = 0;
+  virtual std::type_index type() const = 0;
+};
+
+/// State per particle that resampling moves with the particle. Bytes: T should be small or a handle.
+template <class T>
+class Column final : public ColumnBase {
+ public:
+  std::vector<T> values;
+  T& operator[](std::size_t i) { return values[i]; }
+  const T& operator[](std::size_t i) const { return values[i]; }
+  void resize(std::size_t n) override { values.resize(n); }
+  std::type_index type() const override { return typeid(T); }
+  void gather(const std::vector<std::uint32_t>& ancestors) override {
+    std::vector<T> next;
+    next.reserve(ancestors.size());
+    for (auto a : ancestors) next.push_back(values[a]);
+    values = std::move(next);
+  }
+};
+
+/// The belief: weighted hypotheses about path and map, as a structure of arrays, index = particle.
+/// Invariants: all columns have size() entries; log_weight is normalised (log-sum-exp 0) whenever a weighting or resampling
+/// node has ended; pose[i] equals trajectory[i].last() once the first frame has begun.
+/// No module keeps state by particle number of its own: it declares a column, so that gather() moves it.
+class ParticleSet {
+ public:
+  std::vector<Pose> pose;  ///< T_map_camera, m
+  std::vector<double> log_weight;
+  std::vector<Trajectory> trajectory;
+  std::vector<MapHandle> map;
+  std::vector<PredictionHandle> prediction;  ///< null until a prediction node has run in this frame
+
+  std::size_t size() const { return pose.size(); }
+  /// n particles at one pose with equal weights and one shared map. Drops all paths; typed columns are resized and kept.
+  void init(std::size_t n, const Pose& T_map_camera, MapHandle map_handle);
+  /// Appends the particle's new pose for a new frame to its path.
+  void extend(std::size_t i, const StampedPose& pose);
+  /// Replaces the pose that this frame's extend() gave (a proposal that looked at the image; a refinement).
+  void correct(std::size_t i, const Pose& T_map_camera);
+  /// Particle i becomes a copy of particle ancestors[i], in every column. ancestors.size() is the new number of particles.
+  void gather(const std::vector<std::uint32_t>& ancestors);
+  /// Makes the log weights sum to one (fixed order); returns the log of the sum before. Throws InternalError where none is finite.
+  double normalize();
+  /// Effective sample size 1 / sum w^2, in [1, size()]. Needs normalised weights.
+  double ess() const;
+  /// The particle with the largest weight (the lowest index among equals).
+  std::size_t best() const;
+
+  /// The column of that name, made on first use with default values. Throws InternalError where the type differs.
+  template <class T>
+  Column<T>& column(const std::string& name) {
+    auto& slot = columns_[name];
+    if (!slot) {
+      slot = std::make_unique<Column<T>>();
+      slot->resize(size());
+    }
+    PPM_CHECK(slot->type() == typeid(T), "column '{}' is used with two types", name);
+    return static_cast<Column<T>&>(*slot);
+  }
+
+ private:
+  std::map<std::string, std::unique_ptr<ColumnBase>> columns_;
+};
+
+/// What is carried from frame to frame.
+using Belief = ParticleSet;
+
+}  // namespace ppm

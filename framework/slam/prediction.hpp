@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "framework/core/se3.hpp"
+#include "framework/slam/camera.hpp"
+
+namespace ppm {
+
+/// What a camera at a pose should see of a map: one entry a pixel of `camera` (row-major, [rows*cols]).
+/// It is where maps and likelihoods meet: a weighting knows this and no map.
+/// The described surface lies `mean` beyond the element along `normal`; to first order its range along the ray is
+/// expected_range() = range + mean / (normal . ray direction).
+/// Written by one prediction node, read-only after.
+struct Prediction {
+  static constexpr float kMiss = std::numeric_limits<float>::infinity();
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  Camera camera;  ///< the predicted image's camera: the frame's, decimated by `stride`
+  int stride = 1;  ///< frame pixel (stride*x, stride*y) is prediction pixel (x, y)
+  Pose T_map_camera = Pose::Identity();
+
+  std::vector<float> range;     ///< m along the ray to the element; kMiss = nothing hit
+  std::vector<float> mean;      ///< m along the normal, from the element to the described surface; 0 where unknown
+  std::vector<float> variance;  ///< m^2 along the normal; 0 at a miss
+  std::vector<float> normal;    ///< [3*pixels] xyz interleaved, unit, map frame, turned towards the camera; 0 at a miss
+  std::vector<std::uint32_t> chunk;  ///< the map's chunk hit; kNone = miss
+  std::vector<std::uint32_t> face;   ///< the element (PPM: face) within the chunk
+  std::vector<float> bary;  ///< [2*pixels] u, v of the hit: p = (1-u-v) p0 + u p1 + v p2; 0 where elements are no triangles
+
+  /// Sizes every array for the camera and fills them with misses. Keeps capacity.
+  void reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_);
+  bool hit(std::size_t pixel) const { return chunk[pixel] != kNone; }
+};
+
+using PredictionHandle = std::shared_ptr<const Prediction>;
+
+/// Recycles Predictions, so that none is allocated in the hot path. Thread-safe. Handles may outlive the pool.
+class PredictionPool {
+ public:
+  /// A Prediction to be filled by its one writer; returns to the pool when its last handle goes.
+  std::shared_ptr<Prediction> take();
+
+ private:
+  struct Store {
+    std::mutex mutex;
+    std::vector<std::unique_ptr<Prediction>> free;
+  };
+  std::shared_ptr<Store> store_ = std::make_shared<Store>();
+};
+
+}  // namespace ppm

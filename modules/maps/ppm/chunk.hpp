@@ -1,0 +1,57 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "framework/core/cow.hpp"
+
+namespace ppm {
+
+/// The shape of a chunk. Faces wind counter-clockwise seen from the side that was observed, so that the face normal
+/// (p1-p0) x (p2-p0) points into free space. A texel mean is measured along it, positive into free space.
+/// Source: paper, section 3, M = (V, F, T), cut into spatial cells.
+struct Geometry {
+  std::uint64_t id = 0;  ///< unique for each content that ever existed in this process: key of caches; neither saved nor hashed
+  std::vector<Eigen::Vector3f> position;            ///< [V] m, map frame
+  std::vector<Eigen::Vector3f> normal;              ///< [V] unit, area-weighted over all incident faces of all chunks
+  std::vector<std::uint32_t> vertex_id;             ///< [V] the map's number of the vertex, the same in every chunk that uses it
+  std::vector<std::array<std::uint32_t, 3>> face;   ///< [F] indices into position
+  std::vector<std::uint8_t> divisions;              ///< [F] n >= 1: each edge is divided into n; texel_count(n) texels
+  std::vector<std::uint32_t> first_texel;           ///< [F] index of the face's first texel in Texels
+  std::vector<std::array<std::uint32_t, 2>> open_edge;  ///< directed edges (vertex ids, in winding order) without a partner in this chunk
+  Eigen::AlignedBox3f box;                          ///< of position
+
+  Eigen::Vector3f face_normal(std::size_t f) const;  ///< unit
+  Eigen::Vector3f point(std::size_t f, float u, float v) const;  ///< (1-u-v) p0 + u p1 + v p2
+  std::int64_t bytes() const;
+};
+
+/// Evidence about a face, for its life as a whole (saturating).
+struct FaceEvidence {
+  std::uint16_t hits = 0;     ///< pixels that measured this face
+  std::uint16_t through = 0;  ///< pixels that measured something behind it
+};
+
+/// The texture of a chunk: texels lie on a triangular grid over each face, corners and edges included.
+struct Texels {
+  std::vector<float> mean;      ///< [T] m along the face normal
+  std::vector<float> variance;  ///< [T] m^2; the prior's where never observed
+  std::vector<FaceEvidence> evidence;  ///< [F]
+  std::int64_t bytes() const;
+};
+
+/// Texels of a face with n divisions: (n+1)(n+2)/2. Texel (i, j), 0 <= i, j, i+j <= n, lies at u = i/n, v = j/n.
+constexpr std::uint32_t texel_count(std::uint32_t n) { return (n + 1) * (n + 2) / 2; }
+/// Position of texel (i, j) within the face's texels.
+constexpr std::uint32_t texel_index(std::uint32_t n, std::uint32_t i, std::uint32_t j) { return i * (n + 1) - i * (i - 1) / 2 + j; }
+/// The texel nearest to barycentric (u, v).
+std::uint32_t nearest_texel(std::uint32_t n, float u, float v);
+
+struct PpmChunk {
+  Cow<Geometry> geometry;
+  Cow<Texels> texels;
+};
+
+}  // namespace ppm

@@ -1,0 +1,49 @@
+#pragma once
+#include <memory>
+
+#include "framework/slam/chunk_table.hpp"
+#include "framework/slam/map.hpp"
+#include "modules/maps/ppm/chunk.hpp"
+
+namespace ppm {
+
+/// Fixed when a map is made.
+struct PpmSettings {
+  double cell_size_m = 1.0;      ///< edge of the cubic cell that holds a chunk; a face belongs to its centroid's cell
+  double texel_size_m = 0.02;    ///< wanted distance between texels
+  double prior_sigma_m = 0.05;   ///< standard deviation of an unobserved texel's offset
+  int max_divisions = 64;
+};
+
+/// A probabilistic polygonal mesh: triangles with, per texel, mean and variance of the surface's offset along the face normal.
+/// Invariants (check()): the same vertex id has the same position and normal in every chunk; an edge has at most two faces, wound
+/// oppositely; no degenerate face; texel and evidence counts fit; no vertex without a face.
+/// Source: paper, section 3.
+class PpmMap final : public Map {
+ public:
+  explicit PpmMap(PpmSettings settings) : settings_(settings) {}
+  std::string_view kind() const override { return "ppm"; }
+  MapStats stats() const override;
+  std::int64_t account(std::unordered_set<const void*>& seen) const override;
+  void digest(Digest& digest) const override;
+  /// Surface::displaced moves each vertex along its normal by the information-weighted mean of the texels at it.
+  Mesh mesh(Surface surface) const override;
+
+  const PpmSettings& settings() const { return settings_; }
+  const ChunkTable<PpmChunk>& table() const { return table_; }
+  std::uint32_t vertex_ids() const { return next_vertex_id_; }  ///< ids handed out so far
+  Cell cell_of(const Eigen::Vector3f& p) const;
+  /// Divisions for a face with these corners: its longest edge over the texel size, rounded up, 1 .. max_divisions.
+  std::uint32_t divisions_for(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) const;
+  /// Throws InternalError at the first broken invariant.
+  void check() const;
+
+ private:
+  friend class PpmEdit;
+  friend class PpmReader;
+  PpmSettings settings_;
+  ChunkTable<PpmChunk> table_;
+  std::uint32_t next_vertex_id_ = 0;
+};
+
+}  // namespace ppm
