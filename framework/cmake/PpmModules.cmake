@@ -32,3 +32,10 @@ void register_builtin(Registry& r) {
 ")
   target_sources(ppm_modules PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/builtin.cpp)
 endfunction()
+
+# ppm_module_sources(FILES...): code that modules use and that is no module itself, relative to modules/.
+function(ppm_module_sources)
+  foreach(file IN LISTS ARGN)
+    target_sources(ppm_modules PRIVATE ${CMAKE_SOURCE_DIR}/modules/${file})
+  endforeach()
+endfunction()

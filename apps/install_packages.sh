@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that ppm is built from and tested with. Nothing to do where they are there.
+set -euo pipefail
+packages=(
+  build-essential cmake ninja-build ccache mold pkg-config git
+  libeigen3-dev libembree-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+  libtbb-dev librandom123-dev libpng-dev libjpeg-dev libxxhash-dev libboost-dev
+  catch2 libbenchmark-dev
+)
+missing=()
+for p in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'ok installed' || missing+=("$p")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+sudo=""
+[ "$(id -u)" -eq 0 ] || sudo=sudo
+export DEBIAN_FRONTEND=noninteractive
+echo "installing: ${missing[*]}"
+$sudo apt-get update -qq
+$sudo apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
