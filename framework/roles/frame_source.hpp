@@ -7,12 +7,13 @@
 
 #include "framework/graph/module.hpp"
 #include "framework/slam/frame.hpp"
+#include "framework/slam/frame_sequence.hpp"
 #include "framework/slam/trajectory.hpp"
 
 namespace ppm {
 
-/// A sequence of images: the base of every `source.*`. A source says how many images it has and reads one; selection, holding
-/// out, decimation, range limits, noise model and prefetch of the next frame are done here, the same for all.
+/// A sequence of images: the base of every `source.*`. A source opens a FrameSequence; selection, holding out, decimation,
+/// range limits, noise model and prefetch of the next frame are done here, the same for all.
 class FrameSource : public Module {
  public:
   Out<Frame> frame{this, "frame", "The next image that is not held out."};
@@ -33,11 +34,8 @@ class FrameSource : public Module {
 
  protected:
   FrameSource();
-  /// Number of images in the sequence: indices are 0 .. n-1. Called once. Throws DataError where the folder is unusable.
-  virtual std::int64_t open_sequence() = 0;
-  /// Reads one image at full resolution: index, stamp, camera, depth, colour, reference pose. sigma may stay empty: it is then
-  /// filled from the noise parameters. Called from one thread at a time. Throws DataError naming file and frame.
-  virtual Frame read(std::int64_t index) = 0;
+  /// The sequence that the parameters name. Called once. Throws DataError where the folder is unusable.
+  virtual std::unique_ptr<const FrameSequence> open_sequence() const = 0;
 
  private:
   Frame load(std::int64_t index, int stride);
@@ -51,7 +49,8 @@ class FrameSource : public Module {
 
   std::vector<std::int64_t> selected_, held_out_;
   std::size_t next_ = 0;
-  std::future<Frame> prefetched_;
+  std::unique_ptr<const FrameSequence> sequence_;
+  std::future<Frame> prefetched_;  // below sequence_, which it reads: it is waited for first
 };
 
 }  // namespace ppm

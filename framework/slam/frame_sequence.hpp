@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/slam/frame.hpp"
+
+namespace ppm {
+
+/// The images of one data set, by index 0 .. size()-1. Immutable once made: an image is the same bytes whenever, in whatever
+/// order and on whatever thread it is read.
+class FrameSequence {
+ public:
+  virtual ~FrameSequence() = default;
+  virtual std::int64_t size() const = 0;
+  /// Reads one image at full resolution: index, stamp, camera, depth, colour, reference pose. sigma may stay empty: it is then
+  /// filled from the noise parameters of FrameSource. Throws DataError naming file and frame.
+  virtual Frame read(std::int64_t index) const = 0;
+  virtual double stamp_s(std::int64_t index) const = 0;
+  /// The pose that read() would give, without reading the image.
+  virtual std::optional<Pose> reference_pose(std::int64_t index) const = 0;
+  /// What is odd about the data and does not forbid its use (gaps in the numbering), a sentence each; logged once.
+  virtual std::vector<std::string> remarks() const { return {}; }
+};
+
+}  // namespace ppm
