@@ -1,17 +1,23 @@
 #pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "framework/graph/particle_module.hpp"
 #include "framework/slam/frame.hpp"
 #include "framework/slam/prediction.hpp"
 
 namespace ppm {
 
-/// What each particle should see: the base of every `prediction.*`. Fills the belief's prediction column.
+/// What each particle should see: the base of every `prediction.*`. Fills the belief's prediction column. Particles with the
+/// same map at the same pose share one Prediction. Draws no random numbers.
 class ViewPredictor : public ParticleModule {
  public:
   In<Frame> frame{this, "frame", "Gives the camera whose view is predicted."};
   InOut<Belief> belief;
 
-  /// Work shared by all views of one map before they are predicted (acceleration structures). Called from one thread.
+  /// Work shared by all views of one map before they are predicted (acceleration structures). The maps are distinct, in the
+  /// order of the first particle that has each. Called from one thread.
   virtual void prepare(const std::vector<const Map*>& maps, const Workers& workers) = 0;
   /// Predicts the view of `map` for out.camera at out.T_map_camera; `out` was reset to misses. Called from any worker.
   virtual void predict(const Map& map, Prediction& out, int worker) const = 0;
@@ -19,14 +25,17 @@ class ViewPredictor : public ParticleModule {
   void before(Context& context) override;
   using ParticleModule::tick;
   void tick(Context& context, std::size_t particle, int worker) override;
+  /// before() reads poses and maps.
+  bool starts_loop() const override { return true; }
   const ParticleSet& particles() const override { return *belief; }
 
  protected:
   /// map_facet: the kind of map that it can look at, "map.ppm".
   explicit ViewPredictor(const std::string& map_facet);
-  int stride_ = 1;
 
  private:
+  int stride_ = 1;
+  std::shared_ptr<const Prediction> view(std::size_t particle, int worker);
   PredictionPool pool_;
 };
 

@@ -12,8 +12,7 @@ namespace ppm {
 
 /// What a camera at a pose should see of a map: one entry a pixel of `camera` (row-major, [rows*cols]).
 /// It is where maps and likelihoods meet: a weighting knows this and no map.
-/// The described surface lies `mean` beyond the element along `normal`; to first order its range along the ray is
-/// expected_range() = range + mean / (normal . ray direction).
+/// The described surface lies `mean` beyond the element along `normal`; expected_range() is its range along the ray.
 /// Written by one prediction node, read-only after.
 struct Prediction {
   static constexpr float kMiss = std::numeric_limits<float>::infinity();
@@ -34,6 +33,23 @@ struct Prediction {
   /// Sizes every array for the camera and fills them with misses. Keeps capacity.
   void reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_);
   bool hit(std::size_t pixel) const { return chunk[pixel] != kNone; }
+
+  /// Smallest cosine between ray and normal that is divided by: an offset along the normal moves a grazing hit at most 5 times
+  /// as far along the ray. The first order says nothing useful about flatter views.
+  static constexpr double kMinCosine = 0.2;
+  /// Unit direction of the pixel's ray, map frame.
+  Eigen::Vector3d direction(std::size_t pixel) const;
+  /// |normal . direction| of a hit, at least kMinCosine. direction: see direction(pixel).
+  double cosine(std::size_t pixel, const Eigen::Vector3d& direction) const;
+  /// Range of the described surface, to first order, m: range - mean / cosine (a positive mean is nearer to the camera).
+  double expected_range(std::size_t pixel, const Eigen::Vector3d& direction) const {
+    return range[pixel] - mean[pixel] / cosine(pixel, direction);
+  }
+  /// Variance of that range by the map alone, m^2: variance / cosine^2.
+  double range_variance(std::size_t pixel, const Eigen::Vector3d& direction) const {
+    const double c = cosine(pixel, direction);
+    return variance[pixel] / (c * c);
+  }
 };
 
 using PredictionHandle = std::shared_ptr<const Prediction>;
