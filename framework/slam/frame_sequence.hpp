@@ -13,6 +13,8 @@ namespace ppm {
 class FrameSequence {
  public:
   virtual ~FrameSequence() = default;
+  /// What messages call the data where no single file is to blame: its folder.
+  virtual std::string name() const = 0;
   virtual std::int64_t size() const = 0;
   /// Reads one image at full resolution: index, stamp, camera, depth, colour, reference pose. sigma may stay empty: it is then
   /// filled from the noise parameters of FrameSource. Throws DataError naming file and frame.
