@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "framework/core/cow.hpp"
@@ -35,24 +36,33 @@ class ChunkTable {
 
   std::uint32_t find(const Cell& cell) const {
     if (!index_) return kNone;
-    auto it = index_->find(cell);
-    return it == index_->end() ? kNone : it->second;
+    auto it = index_->number.find(cell);
+    return it == index_->number.end() ? kNone : it->second;
   }
+  /// The cell that a chunk was added for.
+  const Cell& cell(std::size_t i) const { return index_->cell[i]; }
   std::uint32_t add(const Cell& cell, Chunk chunk) {
     if (!index_) index_ = Cow<Index>::make();
     auto number = static_cast<std::uint32_t>(chunks_.size());
-    index_.write().emplace(cell, number);
+    auto& index = index_.write();
+    index.number.emplace(cell, number);
+    index.cell.push_back(cell);
     chunks_.push_back(std::move(chunk));
     return number;
   }
-  /// Bytes of the table itself (pointers and index), without the chunks.
-  std::int64_t bytes() const {
-    auto entries = index_ ? static_cast<std::int64_t>(index_->size()) : 0;
-    return static_cast<std::int64_t>(chunks_.capacity() * sizeof(Chunk)) + entries * 32;
+  /// Bytes of the table itself, without the chunks: its pointers, and the index once for all tables that share it (see Map::account).
+  std::int64_t account(std::unordered_set<const void*>& seen) const {
+    auto bytes = static_cast<std::int64_t>(chunks_.capacity() * sizeof(Chunk));
+    if (index_ && seen.insert(index_.get()).second) bytes += static_cast<std::int64_t>(index_->cell.size()) * kIndexBytes;
+    return bytes;
   }
 
  private:
-  using Index = std::unordered_map<Cell, std::uint32_t, CellHash>;
+  struct Index {
+    std::unordered_map<Cell, std::uint32_t, CellHash> number;
+    std::vector<Cell> cell;  // by chunk number
+  };
+  static constexpr std::int64_t kIndexBytes = 48;  // of a chunk: a hash node, a bucket and its cell, about
   std::vector<Chunk> chunks_;
   Cow<Index> index_;
 };

@@ -16,17 +16,22 @@ struct Geometry {
   std::uint64_t id = 0;  ///< unique for each content that ever existed in this process: key of caches; neither saved nor hashed
   std::vector<Eigen::Vector3f> position;            ///< [V] m, map frame
   std::vector<Eigen::Vector3f> normal;              ///< [V] unit, area-weighted over all incident faces of all chunks
-  std::vector<std::uint32_t> vertex_id;             ///< [V] the map's number of the vertex, the same in every chunk that uses it
+  std::vector<std::uint32_t> vertex_id;             ///< [V] ascending; the map's number of the vertex, the same in every chunk that uses it
   std::vector<std::array<std::uint32_t, 3>> face;   ///< [F] indices into position
   std::vector<std::uint8_t> divisions;              ///< [F] n >= 1: each edge is divided into n; texel_count(n) texels
-  std::vector<std::uint32_t> first_texel;           ///< [F] index of the face's first texel in Texels
-  std::vector<std::array<std::uint32_t, 2>> open_edge;  ///< directed edges (vertex ids, in winding order) without a partner in this chunk
+  std::vector<std::uint32_t> first_texel;           ///< [F] index of the face's first texel in Texels; faces follow each other without gaps
+  std::vector<std::array<std::uint32_t, 2>> open_edge;  ///< ascending; directed edges (vertex ids, in winding order) without a partner in this chunk
   Eigen::AlignedBox3f box;                          ///< of position
 
   Eigen::Vector3f face_normal(std::size_t f) const;  ///< unit
   Eigen::Vector3f point(std::size_t f, float u, float v) const;  ///< (1-u-v) p0 + u p1 + v p2
+  /// Index of the vertex with that id, or kNoVertex. Binary search.
+  std::uint32_t find_vertex(std::uint32_t id) const;
+  static constexpr std::uint32_t kNoVertex = 0xffffffffu;
   std::int64_t bytes() const;
 };
+/// An id that no geometry of this process has had. Results must not depend on its value.
+std::uint64_t next_geometry_id();
 
 /// Evidence about a face, for its life as a whole (saturating).
 struct FaceEvidence {

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
 #include "modules/maps/ppm/ppm_map.hpp"
@@ -29,13 +29,16 @@ class PpmEdit {
   /// A new face over vertices of this session, counter-clockwise seen from free space; texels (mean, variance) in the order of
   /// texel_index, texel_count(divisions) of each. Hits: evidence to start with. The caller guarantees a sound edge (at most two
   /// faces, opposite winding); commit() checks it in debug builds.
-  void add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, const std::vector<float>& mean,
-                const std::vector<float>& variance, FaceEvidence evidence = {});
+  void add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, std::span<const float> mean,
+                std::span<const float> variance, FaceEvidence evidence = {});
   void remove_face(std::uint32_t chunk, std::uint32_t face);
-  /// Moves a vertex in every chunk that uses it. Texel means are the caller's to re-express.
-  void move_vertex(std::uint32_t id, const Eigen::Vector3f& position);
+  /// Moves a vertex, named by one of its copies, in every chunk that uses it. The last move of a vertex counts. Texel means are
+  /// the caller's to re-express.
+  void move_vertex(std::uint32_t chunk, std::uint32_t vertex, const Eigen::Vector3f& position);
 
-  /// Applies what was staged: chunk contents in a fixed order, normals of touched vertices, open edges, boxes, new geometry ids.
+  /// Applies what was staged and ends the session: removals, additions, moves; then normals of touched vertices, open edges,
+  /// boxes, and new geometry ids for the chunks that changed. Kept faces and their texels keep their order, new ones follow in
+  /// the order of add_face(). Costs in proportion to the chunks that change. In debug builds the result is checked.
   std::shared_ptr<const PpmMap> commit();
 
  private:

@@ -1,0 +1,67 @@
+#include "modules/maps/ppm/ppm_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ppm {
+
+Cell PpmMap::cell_of(const Eigen::Vector3f& p) const {
+  return (p.cast<double>() / settings_.cell_size_m).array().floor().cast<int>();
+}
+
+std::uint32_t PpmMap::divisions_for(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) const {
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(longest / settings_.texel_size_m), 1.0, double(settings_.max_divisions)));
+}
+
+MapStats PpmMap::stats() const {
+  MapStats stats;
+  std::vector<bool> seen(next_vertex_id_, false);
+  for (const auto& chunk : table_.chunks()) {
+    const Geometry& geometry = *chunk.geometry;
+    if (!geometry.face.empty()) ++stats.chunks;
+    stats.faces += static_cast<std::int64_t>(geometry.face.size());
+    stats.texels += static_cast<std::int64_t>(chunk.texels->mean.size());
+    for (auto id : geometry.vertex_id) {
+      if (!seen[id]) ++stats.vertices;
+      seen[id] = true;
+    }
+  }
+  std::unordered_set<const void*> none;
+  stats.bytes = account(none);
+  return stats;
+}
+
+std::int64_t PpmMap::account(std::unordered_set<const void*>& seen) const {
+  if (!seen.insert(this).second) return 0;
+  std::int64_t bytes = static_cast<std::int64_t>(sizeof *this) + table_.account(seen);
+  for (const auto& chunk : table_.chunks()) {
+    if (seen.insert(chunk.geometry.get()).second) bytes += chunk.geometry->bytes();
+    if (seen.insert(chunk.texels.get()).second) bytes += chunk.texels->bytes();
+  }
+  return bytes;
+}
+
+void PpmMap::digest(Digest& digest) const {
+  digest.add(settings_.cell_size_m);
+  digest.add(settings_.texel_size_m);
+  digest.add(settings_.prior_sigma_m);
+  digest.add(settings_.max_divisions);
+  digest.add(next_vertex_id_);
+  digest.add(table_.size());
+  for (std::size_t i = 0; i < table_.size(); ++i) {
+    const Geometry& geometry = *table_[i].geometry;
+    const Texels& texels = *table_[i].texels;
+    digest.add(table_.cell(i).data(), 3 * sizeof(int));
+    digest.add(geometry.position);
+    digest.add(geometry.normal);
+    digest.add(geometry.vertex_id);
+    digest.add(geometry.face);
+    digest.add(geometry.divisions);
+    digest.add(texels.mean);
+    digest.add(texels.variance);
+    digest.add(texels.evidence);
+  }
+}
+
+}  // namespace ppm
