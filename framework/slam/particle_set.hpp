@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 #include "framework/core/error.hpp"
@@ -13,6 +14,15 @@
 #include "framework/slam/trajectory.hpp"
 
 namespace ppm {
+
+/// values[i] becomes values[ancestors[i]].
+template <class T>
+void gather(std::vector<T>& values, const std::vector<std::uint32_t>& ancestors) {
+  std::vector<T> next;
+  next.reserve(ancestors.size());
+  for (auto a : ancestors) next.push_back(values[a]);
+  values = std::move(next);
+}
 
 /// A column of a ParticleSet whose type only its owner knows.
 class ColumnBase {
@@ -32,12 +42,7 @@ class Column final : public ColumnBase {
   const T& operator[](std::size_t i) const { return values[i]; }
   void resize(std::size_t n) override { values.resize(n); }
   std::type_index type() const override { return typeid(T); }
-  void gather(const std::vector<std::uint32_t>& ancestors) override {
-    std::vector<T> next;
-    next.reserve(ancestors.size());
-    for (auto a : ancestors) next.push_back(values[a]);
-    values = std::move(next);
-  }
+  void gather(const std::vector<std::uint32_t>& ancestors) override { ppm::gather(values, ancestors); }
 };
 
 /// The belief: weighted hypotheses about path and map, as a structure of arrays, index = particle.
