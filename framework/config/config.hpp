@@ -17,6 +17,7 @@ class Config {
 
   Config() = default;
   static Config scalar(std::string text, Place place, bool quoted = false);
+  static Config sequence(std::vector<Config> items, Place place);
 
   Kind kind() const { return kind_; }
   const Place& place() const { return place_; }
@@ -52,6 +53,14 @@ struct Config::Entry {
   Place key_place;
   Config value;
 };
+
+inline Config Config::sequence(std::vector<Config> items, Place place) {
+  Config config;
+  config.kind_ = Kind::sequence;
+  config.place_ = std::move(place);
+  config.items_ = std::move(items);
+  return config;
+}
 
 const char* kind_name(Config::Kind kind);
 

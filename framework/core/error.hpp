@@ -27,7 +27,14 @@ using Diagnostics = std::vector<Diagnostic>;
 
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& message) : runtime_error(message), text_(message) {}
+  const char* what() const noexcept override { return text_.c_str(); }
+  /// Says where it happened, behind the message: "... (node 'look', frame 12)". Callers rethrow with `throw;`, so that the
+  /// type is kept.
+  void add_context(const std::string& where) { text_ += " (" + where + ")"; }
+
+ private:
+  std::string text_;
 };
 
 /// The user's file or command line is wrong. Carries every mistake that was found; what() has one line for each.

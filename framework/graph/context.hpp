@@ -40,6 +40,8 @@ class Context {
  private:
   friend class Executor;
   friend class Harness;
+  void enter(const std::string& node);
+
   const Workers& workers_;
   Log& log_;
   Metrics& metrics_;

@@ -37,13 +37,18 @@ class Executor {
   const ParticleSet& belief() const { return *graph_.belief_; }
 
  private:
-  void tick_all();
-  std::size_t tick_loop(std::size_t first);
-  void enter(const Node& node);
-  void pass_through(Node& node);
+  void open_nodes();
+  bool tick_frame(std::int64_t frame);
+  void tick_at_end(std::int64_t frame);
+  void close_nodes();
+  void tick_node(std::size_t i);
+  std::size_t tick_loop(std::size_t first, const std::function<bool(const Node&)>& runs);
+  static void pass_through(Node& node);
+  std::int64_t expected_frames() const;
 
   Graph& graph_;
   Context& context_;
+  std::vector<Context> contexts_;  // one a node, copies of context_: nodes of one loop run at the same time
   RunSummary summary_;
 };
 

@@ -46,6 +46,10 @@ Override parse_override(const std::string& text);
 /// A program of modules, wired and checked, with parameters set: all that can be known before the first frame has been checked.
 class Graph {
  public:
+  Graph();
+  Graph(Graph&&) noexcept;
+  Graph& operator=(Graph&&) noexcept;
+  ~Graph();
   /// Builds from a parsed file. Throws one ConfigError with every mistake of the file.
   static Graph build(const Config& file, const Registry& registry, const std::vector<Override>& overrides = {});
 

@@ -1,7 +1,9 @@
 #pragma once
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "framework/core/parallel.hpp"
 #include "framework/graph/registry.hpp"
@@ -19,11 +21,11 @@ class Harness {
           std::uint64_t seed = 1, std::filesystem::path out_dir = {});
   template <class T>
   void input(const std::string& port, std::shared_ptr<const T> value) {
-    *slot(port) = std::move(value);
+    *slot(PortDirection::in, port, typeid(T)) = std::move(value);
   }
   template <class T>
   std::shared_ptr<const T> output(const std::string& port) {
-    return std::static_pointer_cast<const T>(*slot(port));
+    return std::static_pointer_cast<const T>(*slot(PortDirection::out, port, typeid(T)));
   }
   ParticleSet& belief() { return belief_; }
   Module& module() { return *module_; }
@@ -33,14 +35,15 @@ class Harness {
   void close();
 
  private:
-  std::shared_ptr<const void>* slot(const std::string& port);
+  /// Throws InternalError where the module has no such port.
+  std::shared_ptr<const void>* slot(PortDirection direction, const std::string& port, std::type_index type);
   Workers workers_;
   Log log_{LogLevel::warning};
   Metrics metrics_;
   Context context_;
   ParticleSet belief_;
   std::unique_ptr<Module> module_;
-  std::map<std::string, std::shared_ptr<const void>> slots_;
+  std::map<std::pair<PortDirection, std::string>, std::shared_ptr<const void>> slots_;
   bool opened_ = false;
 };
 

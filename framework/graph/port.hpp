@@ -48,7 +48,6 @@ class PortBase {
   PortDirection direction() const { return direction_; }
   std::type_index type() const { return type_; }
   std::string_view type_name() const { return type_name_; }
-  bool required() const { return required_; }
   /// Out ports: the In port whose value passes through when the node is gated off, or null.
   const PortBase* identity() const { return identity_; }
 
@@ -60,7 +59,6 @@ class PortBase {
   PortDirection direction_;
   std::type_index type_;
   std::string_view type_name_;
-  bool required_ = true;
   const PortBase* identity_ = nullptr;
   std::shared_ptr<const void>* slot_ = nullptr;  // of the edge; set when the graph is built
 };
@@ -71,12 +69,16 @@ class In : public PortBase {
  public:
   In(Module* owner, std::string name, std::string doc)
       : PortBase(owner, PortDirection::in, std::move(name), std::move(doc), typeid(T), PortType<T>::name) {}
-  std::shared_ptr<const T> get() const {
+  /// For keeping the value beyond this frame.
+  std::shared_ptr<const T> get() const { return std::static_pointer_cast<const T>(value()); }
+  const T& operator*() const { return *static_cast<const T*>(value().get()); }
+  const T* operator->() const { return &**this; }
+
+ private:
+  const std::shared_ptr<const void>& value() const {
     PPM_CHECK(slot_ && *slot_, "input '{}' has no value", name_);
-    return std::static_pointer_cast<const T>(*slot_);
+    return *slot_;
   }
-  const T& operator*() const { return *get(); }
-  std::shared_ptr<const T> operator->() const { return get(); }
 };
 
 /// An output. A node that can be gated off names the input that stands in for it then; sources cannot be gated.

@@ -1,0 +1,45 @@
+#include "framework/graph/harness.hpp"
+
+namespace ppm {
+
+Harness::Harness(const Registry& registry, const std::string& module, const std::string& params_yaml, int threads,
+                 std::uint64_t seed, std::filesystem::path out_dir)
+    : workers_(threads), context_(workers_, log_, metrics_, seed, std::move(out_dir)) {
+  const ModuleInfo* info = registry.find(module);
+  PPM_CHECK(info, "no module '{}'", module);
+  module_ = info->make();
+  Diagnostics mistakes;
+  Config params = parse_yaml(params_yaml, module);
+  module_->params().parse(&params, module, params.place(), mistakes);
+  if (!mistakes.empty()) throw ConfigError(mistakes);
+  for (PortBase* port : module_->ports()) {
+    if (auto* belief = dynamic_cast<BeliefPortBase*>(port)) {
+      belief->belief_ = &belief_;
+    } else {
+      port->slot_ = &slots_[{port->direction(), port->name()}];
+    }
+  }
+  context_.enter(module);
+}
+
+bool Harness::tick() {
+  if (opened_) {
+    ++context_.frame_;
+  } else {
+    module_->open(context_);
+    opened_ = true;
+  }
+  module_->tick(context_);
+  return !context_.ended_;
+}
+
+void Harness::close() { module_->close(context_); }
+
+std::shared_ptr<const void>* Harness::slot(PortDirection direction, const std::string& port, std::type_index type) {
+  for (const PortBase* p : module_->ports()) {
+    if (p->direction() == direction && p->name() == port && p->type() == type) return p->slot_;
+  }
+  throw InternalError(fmt::format("the module has no port '{}' of this direction and type", port));
+}
+
+}  // namespace ppm

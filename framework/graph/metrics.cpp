@@ -1,0 +1,25 @@
+#include "framework/graph/metrics.hpp"
+
+#include <fmt/format.h>
+
+namespace ppm {
+
+std::string Metrics::to_csv() const {
+  std::map<std::int64_t, std::vector<std::string>> rows;
+  std::string text = "frame";
+  std::size_t column = 0;
+  for (const auto& [name, values] : columns_) {
+    text += "," + name;
+    for (const auto& row : values) {
+      auto& fields = rows[row.frame];
+      fields.resize(columns_.size());
+      fields[column] = fmt::format("{}", row.value);
+    }
+    ++column;
+  }
+  text += '\n';
+  for (const auto& [frame, fields] : rows) text += fmt::format("{},{}\n", frame, fmt::join(fields, ","));
+  return text;
+}
+
+}  // namespace ppm
