@@ -13,8 +13,8 @@ Harness::Harness(const Registry& registry, const std::string& module, const std:
   module_->params().parse(&params, module, params.place(), mistakes);
   if (!mistakes.empty()) throw ConfigError(mistakes);
   for (PortBase* port : module_->ports()) {
-    if (auto* belief = dynamic_cast<BeliefPortBase*>(port)) {
-      belief->belief_ = &belief_;
+    if (port->direction() == PortDirection::belief) {
+      static_cast<BeliefPortBase*>(port)->belief_ = &belief_;
     } else {
       port->slot_ = &slots_[{port->direction(), port->name()}];
     }

@@ -33,6 +33,7 @@ struct Facets {
   std::vector<std::string> drops;
 };
 
+/// A port of direction `belief` is a BeliefPortBase.
 enum class PortDirection { in, out, belief };
 
 /// The part of a port that the graph sees. Registers itself with its module.
