@@ -2,10 +2,13 @@
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/graph/module.hpp"
+#include "framework/roles/frame_conditioning.hpp"
+#include "framework/roles/frame_selection.hpp"
 #include "framework/slam/frame.hpp"
 #include "framework/slam/frame_sequence.hpp"
 #include "framework/slam/trajectory.hpp"
@@ -13,7 +16,8 @@
 namespace ppm {
 
 /// A sequence of images: the base of every `source.*`. A source opens a FrameSequence; selection, holding out, decimation,
-/// range limits, noise model and prefetch of the next frame are done here, the same for all.
+/// range limits, noise model and prefetch of the next frame are done here, the same for all. What goes wrong with an image
+/// is thrown by the tick whose image it is.
 class FrameSource : public Module {
  public:
   Out<Frame> frame{this, "frame", "The next image that is not held out."};
@@ -22,13 +26,13 @@ class FrameSource : public Module {
   void tick(Context& context) override;
 
   /// Indices of the images in [first, last] that were held out, ascending. Valid after open().
-  const std::vector<std::int64_t>& held_out() const { return held_out_; }
+  const std::vector<std::int64_t>& held_out() const { return selection_.held_out; }
   /// Indices of the images to be mapped, ascending. Valid after open().
-  const std::vector<std::int64_t>& selected() const { return selected_; }
+  const std::vector<std::int64_t>& selected() const { return selection_.mapped; }
   /// A held-out image at the source's own resolution (no pixel stride), with range limits and sigma. Throws DataError.
-  Frame full_frame(std::int64_t index);
+  Frame full_frame(std::int64_t index) const;
   /// The reference path over the selected images that have a pose; empty where the source has none. Valid after open().
-  std::vector<StampedPose> reference();
+  std::vector<StampedPose> reference() const;
   /// Opens the sequence without a run, for evaluation.
   void open_for_evaluation();
 
@@ -38,19 +42,21 @@ class FrameSource : public Module {
   virtual std::unique_ptr<const FrameSequence> open_sequence() const = 0;
 
  private:
-  Frame load(std::int64_t index, int stride);
+  void declare_selection();
+  void declare_noise();
+  std::optional<Pose> checked_pose(std::int64_t index) const;
+  Frame load(std::int64_t index, int stride) const;
+  void prefetch();
 
   std::int64_t first_ = 0, last_ = -1, stride_ = 1;
   int pixel_stride_ = 1;
-  double min_range_m_ = 0.3, max_range_m_ = 10.0;
-  double sigma_floor_ = 0.0012, sigma_quadratic_ = 0.0019, sigma_near_ = 0.4;
   std::string holdout_ = "none";
-  std::int64_t holdout_every_ = 0;
+  FrameConditioning conditioning_;
 
-  std::vector<std::int64_t> selected_, held_out_;
+  FrameSelection selection_;
   std::size_t next_ = 0;
   std::unique_ptr<const FrameSequence> sequence_;
-  std::future<Frame> prefetched_;  // below sequence_, which it reads: it is waited for first
+  std::future<Frame> prefetched_;  // below what load() reads: it is waited for first
 };
 
 }  // namespace ppm

@@ -35,7 +35,7 @@ class ViewPredictor : public ParticleModule {
 
  private:
   int stride_ = 1;
-  std::shared_ptr<const Prediction> view(std::size_t particle, int worker);
+  PredictionHandle view(std::size_t particle, int worker);
   PredictionPool pool_;
 };
 

@@ -1,0 +1,114 @@
+#include "framework/roles/frame_source.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace ppm {
+
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// Files round their rotations; what is further from orthonormal than this is no rotation.
+constexpr double kRotationTolerance = 1e-2;
+
+bool is_rotation(const Eigen::Matrix3d& R) {
+  return R.determinant() > 0 && (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kRotationTolerance;
+}
+
+}  // namespace
+
+FrameSource::FrameSource() {
+  declare_selection();
+  declare_noise();
+}
+
+void FrameSource::declare_selection() {
+  params_.add("first", first_).range(0, kNoLimit).doc("Index of the first image used.");
+  params_.add("last", last_).range(-1, kNoLimit).doc("Index of the last image used; -1 is the end of the sequence.");
+  params_.add("stride", stride_).range(1, kNoLimit).doc("Maps each n-th image, from the first on.");
+  params_.add("pixel_stride", pixel_stride_)
+      .range(1, 64)
+      .doc("Keeps each n-th pixel of each n-th row, from pixel (0, 0) on; held-out images keep all.");
+  params_.add("holdout", holdout_)
+      .check([this] {
+        if (parse_holdout(holdout_) >= 0) return std::string();
+        return fmt::format("'{}' is neither 'none' nor of the form 'every 10th' (from 'every 2nd' on)", holdout_);
+      })
+      .doc("Images kept from the map, to test it on: 'none', or 'every 10th': those with index % 10 == 5 in first .. last, "
+           "whatever the stride.");
+  params_.add("min_range", conditioning_.min_range_m).unit("m").range(0, kNoLimit).doc("Nearer depths are dropped.");
+  params_.add("max_range", conditioning_.max_range_m).unit("m").above(0).doc("Farther depths are dropped.");
+}
+
+void FrameSource::declare_noise() {
+  params_.add("sigma_floor", conditioning_.sigma_floor)
+      .unit("m")
+      .above(0)
+      .doc("Depth noise of sensors that give none with the image: sigma(z) = sigma_floor + sigma_quadratic * "
+           "(z - sigma_near)^2 (Nguyen, Izadi, Lovell, 3DIMPVT 2012).");
+  params_.add("sigma_quadratic", conditioning_.sigma_quadratic)
+      .range(0, kNoLimit)
+      .doc("Growth of the depth noise with the square of the distance, 1/m; see sigma_floor.");
+  params_.add("sigma_near", conditioning_.sigma_near)
+      .unit("m")
+      .range(0, kNoLimit)
+      .doc("Distance of least depth noise; see sigma_floor.");
+}
+
+void FrameSource::open(Context& context) {
+  open_for_evaluation();
+  for (const auto& remark : sequence_->remarks()) context.log().warning("{}: {}", sequence_->name(), remark);
+  context.expect_frames(static_cast<std::int64_t>(selection_.mapped.size()));
+  next_ = 0;
+  prefetch();
+}
+
+void FrameSource::open_for_evaluation() {
+  if (!sequence_) sequence_ = open_sequence();
+  selection_ = select_frames(sequence_->name(), sequence_->size(), first_, last_, stride_, parse_holdout(holdout_));
+}
+
+void FrameSource::prefetch() {
+  if (next_ == selection_.mapped.size()) return;
+  prefetched_ = std::async(std::launch::async, [this, index = selection_.mapped[next_]] { return load(index, pixel_stride_); });
+}
+
+void FrameSource::tick(Context& context) {
+  if (next_ == selection_.mapped.size()) {
+    context.end_of_stream();
+    return;
+  }
+  auto next = std::make_shared<const Frame>(prefetched_.get());
+  ++next_;
+  prefetch();
+  frame.set(std::move(next));
+}
+
+Frame FrameSource::full_frame(std::int64_t index) const { return load(index, 1); }
+
+std::vector<StampedPose> FrameSource::reference() const {
+  PPM_CHECK(sequence_, "the source is not open");
+  std::vector<StampedPose> path;
+  for (auto index : selection_.mapped)
+    if (const auto pose = checked_pose(index)) path.push_back({index, sequence_->stamp_s(index), *pose});
+  return path;
+}
+
+std::optional<Pose> FrameSource::checked_pose(std::int64_t index) const {
+  const auto pose = sequence_->reference_pose(index);
+  if (!pose) return std::nullopt;
+  if (!is_finite(*pose)) throw DataError(sequence_->name(), index, "the reference pose is not finite");
+  if (!is_rotation(pose->linear())) throw DataError(sequence_->name(), index, "the reference pose is no rigid motion");
+  return orthonormalized(pose->matrix());
+}
+
+Frame FrameSource::load(std::int64_t index, int stride) const {
+  PPM_CHECK(sequence_, "the source is not open");
+  Frame image = sequence_->read(index);
+  PPM_CHECK(image.index == index, "asked for image {}, got {}", index, image.index);
+  image.T_world_camera_ref = checked_pose(index);
+  return conditioning_.apply(image, stride);
+}
+
+}  // namespace ppm

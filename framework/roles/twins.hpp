@@ -1,0 +1,14 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "framework/slam/particle_set.hpp"
+
+namespace ppm {
+
+/// For each particle the lowest particle with the same map at the same pose (bit by bit) and, if asked, the same prediction:
+/// copies of one ancestor, for which the same work need not be done twice.
+/// twins[i] == i for those to do the work.
+std::vector<std::size_t> twins(const ParticleSet& belief, bool same_prediction);
+
+}  // namespace ppm
