@@ -1,0 +1,74 @@
+#include <memory>
+#include <vector>
+
+#include "framework/graph/registry.hpp"
+#include "framework/roles/view_predictor.hpp"
+#include "modules/maps/ppm/ppm_map.hpp"
+#include "modules/prediction/embree_scenes.hpp"
+#include "modules/prediction/embree_view.hpp"
+
+namespace {
+
+using namespace ppm;
+
+const PpmMap& as_ppm(const Map& map) { return static_cast<const PpmMap&>(map); }
+
+/// Predicts views of a mesh map by ray casting.
+/// prediction  range to the base face (not to the described surface), texel mean and variance at the hit, the face's normal;
+///             a face seen from its unobserved side is no hit unless `backfaces` says so
+/// metrics     scenes, built (acceleration structures alive; built in this frame), scenes_mb
+/// source      paper, section 4.2; Wald et al., "Embree", SIGGRAPH 2014
+class EmbreePredictor final : public ViewPredictor {
+ public:
+  EmbreePredictor() : ViewPredictor("map.ppm") {
+    params_.add("packet", view_.packet).doc("Rays traced together: 1, 4, 8 or 16.").check([this] {
+      const bool known = view_.packet == 1 || view_.packet == 4 || view_.packet == 8 || view_.packet == 16;
+      return known ? "" : "must be 1, 4, 8 or 16";
+    });
+    params_.add("coherent", view_.coherent).doc("Tell Embree that the rays of a packet go much the same way.");
+    params_.add("robust", scene_.robust).doc("Watertight test of ray against triangle: no ray slips between two faces.");
+    params_.add_choice("build", scene_.build, {{"low", Build::low}, {"medium", Build::medium}, {"high", Build::high}})
+        .doc("Quality of the acceleration structures: low builds fastest, high traces fastest.");
+    params_.add_choice("backfaces", scene_.cull_back_faces, {{"cull", true}, {"hit", false}})
+        .doc("What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it there.");
+    params_.add_choice("texel", view_.linear_texels, {{"nearest", false}, {"linear", true}})
+        .doc("Mean and variance at a hit: of the nearest texel, or interpolated between texels.");
+  }
+
+  void open(Context& context) override {
+    ViewPredictor::open(context);
+    scenes_.reset();
+  }
+
+  void before(Context& context) override {
+    ViewPredictor::before(context);
+    context.metric("scenes", static_cast<double>(scenes_->size()));
+    context.metric("built", static_cast<double>(scenes_->built()));
+    context.metric("scenes_mb", static_cast<double>(scenes_->bytes()) / 1e6);
+  }
+
+  void prepare(const std::vector<const Map*>& maps, const Workers& workers) override {
+    if (!scenes_) scenes_ = std::make_unique<EmbreeScenes>(scene_);
+    std::vector<const PpmMap*> meshes;
+    meshes.reserve(maps.size());
+    for (const Map* map : maps) meshes.push_back(&as_ppm(*map));
+    scenes_->update(meshes, workers);
+  }
+
+  void predict(const Map& map, Prediction& out, int) const override {
+    trace_view(as_ppm(map), scenes_->of(as_ppm(map)), view_, out);
+  }
+
+ private:
+  using Build = EmbreeOptions::Build;
+  EmbreeOptions scene_;
+  EmbreeViewOptions view_;
+  std::unique_ptr<EmbreeScenes> scenes_;  // made on first use: the options are known only then
+};
+
+}  // namespace
+
+PPM_MODULES(r) {
+  r.add<EmbreePredictor>("prediction.embree", "What each particle should see of its mesh map, by ray casting with Embree.",
+                         "paper, section 4.2; Wald et al., Embree, SIGGRAPH 2014");
+}
