@@ -18,6 +18,7 @@ class Config {
   Config() = default;
   static Config scalar(std::string text, Place place, bool quoted = false);
   static Config sequence(std::vector<Config> items, Place place);
+  static Config map(Place place);
 
   Kind kind() const { return kind_; }
   const Place& place() const { return place_; }
@@ -35,7 +36,8 @@ class Config {
   Config* find(const std::string& key);
   std::vector<Config>& items() { return items_; }
 
-  /// Block-style YAML text of the tree, for effective configurations: parsing it again gives the same tree.
+  /// Block-style YAML text of the tree, for effective configurations: parsing it again gives the same tree. A text that
+  /// YAML would read otherwise is put in quotes.
   std::string to_yaml() const;
 
  private:
@@ -54,23 +56,17 @@ struct Config::Entry {
   Config value;
 };
 
-inline Config Config::sequence(std::vector<Config> items, Place place) {
-  Config config;
-  config.kind_ = Kind::sequence;
-  config.place_ = std::move(place);
-  config.items_ = std::move(items);
-  return config;
-}
-
 const char* kind_name(Config::Kind kind);
 
-/// Parses YAML text; `name` stands for the file in places. Throws ConfigError: syntax, duplicate keys, anchors and merges
-/// (not supported: a graph is read from top to bottom), more than one document.
+/// Parses YAML text; `name` stands for the file in places. Throws one ConfigError with every mistake: syntax (which
+/// ends the reading), duplicate keys, keys that are not scalars, anchors, aliases, merges and tags (not supported: a
+/// graph is read from top to bottom), tabs as indentation, more than one document.
 Config parse_yaml(const std::string& text, const std::string& name);
 /// Reads and parses a file. Throws ConfigError where it cannot be read.
 Config load_yaml(const std::filesystem::path& file);
 
-/// The candidate most like `word` (edit distance at most a third of its length, at least 1), or "" where none is.
+/// The candidate most like `word`, the first among equals, or "" where none is. Alike: edit distance (a swap of
+/// neighbours counts once; case does not count) of at most a third of the word's length, at least 1.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace ppm

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -14,18 +15,21 @@
 
 namespace ppm {
 
-/// One declared parameter: what it is called, where its value goes, what is allowed. Built by Params::add.
+/// One declared parameter: what it is called, where its value goes, what is allowed. Built by Params::add. A
+/// declaration that makes no sense (an unknown unit, a range for a text, a default that is not finite) throws
+/// InternalError.
 class ParamSpec {
  public:
   enum class Type { boolean, integer, real, text, path, choice, vector3 };
 
-  ParamSpec& unit(std::string si_unit);        ///< see parse_quantity; reals and vectors only
-  ParamSpec& range(double least, double most);  ///< both ends allowed, SI
-  ParamSpec& above(double least);               ///< strictly above, SI
-  ParamSpec& doc(std::string text);             ///< one or more sentences, ends with a full stop
-  ParamSpec& required();                        ///< has no default
-  ParamSpec& choices(std::vector<std::string> names);  ///< for texts
-  /// A further check of the bound value after it was set: returns "" or what is wrong.
+  ParamSpec& unit(std::string si_unit);                ///< see parse_quantity; reals and vectors only
+  ParamSpec& range(double least, double most);         ///< both ends allowed, SI
+  ParamSpec& above(double least);                      ///< strictly above, SI
+  ParamSpec& doc(std::string text);                    ///< one or more sentences, ends with a full stop
+  ParamSpec& required();                               ///< has no default
+  ParamSpec& choices(std::vector<std::string> names);  ///< for texts; the type becomes choice
+  /// A further check, made when all parameters have been set, so that it may look at others: returns "" or what is
+  /// wrong.
   ParamSpec& check(std::function<std::string()> f);
 
   const std::string& name() const { return name_; }
@@ -44,9 +48,17 @@ class ParamSpec {
 
  private:
   friend class Params;
-  using Target = std::variant<bool*, int*, std::int64_t*, double*, std::string*, std::filesystem::path*, Eigen::Vector3d*>;
-  std::string assign(const Config& value);
-  std::string assign_number(const Config& value);
+  using Target = std::variant<std::monostate, bool*, int*, std::int64_t*, double*, std::string*, std::filesystem::path*,
+                              Eigen::Vector3d*>;
+  /// Sets the bound value, or says what is wrong and where; the value is unchanged then.
+  std::optional<Diagnostic> assign(const Config& value);
+  std::string assign_boolean(const Config& value);
+  std::string assign_integer(const Config& value);
+  std::string assign_text(const Config& value);
+  std::optional<Diagnostic> assign_vector(const Config& value);
+  std::string read_real(const Config& value, double& out) const;
+  std::string check_range(double value, const std::string& written) const;
+  Config value(const Place& place) const;
 
   std::string name_, unit_, doc_, default_text_;
   Type type_ = Type::text;
@@ -56,13 +68,14 @@ class ParamSpec {
   bool least_excluded_ = false, required_ = false;
   std::vector<std::string> choices_;
   std::function<std::string()> check_;
-  // an enum's member: set through the choice's index
+  // An enum's member is set through the choice's index; target_ is empty then.
   std::function<void(std::size_t)> set_choice_;
   std::function<std::size_t()> get_choice_;
 };
 
-/// The parameters of a module, declared once, each bound to the member that holds it; the member's initialiser is the default.
-/// From this one declaration come parsing, checks, `ppm describe`, the schema, the docs page and the effective values.
+/// The parameters of a module, declared once, each bound to the member that holds it; the member's initialiser is the
+/// default. From this one declaration come parsing, checks, `ppm describe`, the schema, the docs page and the effective
+/// values.
 class Params {
  public:
   /// T: bool, int, std::int64_t, double, std::string, std::filesystem::path, Eigen::Vector3d.
@@ -74,9 +87,9 @@ class Params {
   template <class E>
   ParamSpec& add_choice(std::string name, E& member, std::vector<std::pair<std::string, E>> named);
 
-  /// Assigns each value of a YAML map (or null) to its member. Appends every mistake to `out` (unknown key with "did you
-  /// mean", wrong type, unit or range, missing required value) and goes on.
-  /// owner: the module's name for messages; place: where the node stands, for a missing required value.
+  /// Assigns each value of a YAML map (or null) to its member. Appends every mistake to `out` (unknown key with "did
+  /// you mean", wrong type, unit or range, missing required value) and goes on. owner: the module's name for messages;
+  /// place: where the node stands, for a missing required value.
   void parse(const Config* values, const std::string& owner, const Place& place, Diagnostics& out);
   const std::deque<ParamSpec>& specs() const { return specs_; }
   const ParamSpec* find(const std::string& name) const;
@@ -84,6 +97,7 @@ class Params {
   Config effective() const;
 
  private:
+  void assign(const Config::Entry& entry, const std::string& owner, Diagnostics& out);
   ParamSpec& declare(std::string name, ParamSpec::Target target);
   ParamSpec& declare_choice(std::string name, std::vector<std::string> names, std::function<void(std::size_t)> set,
                             std::function<std::size_t()> get);
