@@ -17,8 +17,8 @@ class RobustWeighting final : public Weighting {
  public:
   RobustWeighting() {
     pixels_ = 1200;
-    params_.add("temper", temper_).above(0).range(0, 1).doc("Factor on the log likelihood: below 1 for pixels that err together.");
-    params_.add("outlier_share", outlier_share_).range(0, 1).doc("Prior probability that a pixel measures something else than the map's surface.");
+    params_.add("temper", temper_).range(0, 1).above(0).doc("Factor on the log likelihood: below 1 for pixels that err together.");
+    params_.add("outlier_share", outlier_share_).range(0, 1).above(0).doc("Prior probability that a pixel measures something else than the map's surface.");
     params_.add("max_range", max_range_).unit("m").above(0).doc("An outlier may lie anywhere up to here.");
     params_.add("miss_density", miss_density_).above(0).doc("Density, in 1/m, of any measured range where the map shows nothing.");
     params_.add("model_sigma", model_sigma_).unit("m").range(0, 1).doc("Standard deviation of the map's surface, along the normal, beyond what its texels say.");
