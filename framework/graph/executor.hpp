@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/graph/graph.hpp"
@@ -11,8 +13,8 @@
 
 namespace ppm {
 
-/// Wall time of a node, one value a frame in which it ran. In a joint loop over particles the loop's wall time is shared out
-/// by the time that each node's ticks took.
+/// Wall time of a node, one value a frame in which it ran. In a joint loop over particles the loop's wall time is
+/// shared out by the time that each node's ticks took.
 struct NodeTimes {
   std::vector<double> ms;
 };
@@ -20,13 +22,13 @@ struct NodeTimes {
 /// What a run gives back.
 struct RunSummary {
   std::int64_t frames = 0;
-  double wall_s = 0;       ///< of the frames, without open() and close()
+  double wall_s = 0;  ///< of the frames, without open() and close()
   bool interrupted = false;
   std::map<std::string, NodeTimes> nodes;
 };
 
-/// Runs a graph: nodes in file order, frame by frame, until the source ends, `max_frames` are done or `stop` is set (the frame
-/// is finished first). Consecutive ParticleModules run as one loop over particles.
+/// Runs a graph: nodes in file order, frame by frame, until the source ends, `max_frames` are done or `stop` is set
+/// (the frame is finished first). Consecutive ParticleModules run as one loop over particles.
 class Executor {
  public:
   Executor(Graph& graph, Context& context) : graph_(graph), context_(context) {}
@@ -43,7 +45,10 @@ class Executor {
   void close_nodes();
   void tick_node(std::size_t i);
   std::size_t tick_loop(std::size_t first, const std::function<bool(const Node&)>& runs);
-  static void pass_through(Node& node);
+  static bool has_output(const Node& node);
+  /// Empties the outputs, so that a module that forgets to set one is found out; gives what was there.
+  static std::vector<std::pair<PortBase*, std::shared_ptr<const void>>> take_outputs(const Node& node);
+  static void pass_through(const Node& node);
   std::int64_t expected_frames() const;
 
   Graph& graph_;

@@ -1,27 +1,16 @@
 #pragma once
 #include <cstdint>
-#include <limits>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "framework/config/config.hpp"
+#include "framework/graph/gate.hpp"
 #include "framework/graph/registry.hpp"
 
 namespace ppm {
-
-/// When a node runs. It runs in frame f if from_frame <= f <= until_frame and (f - from_frame) % every == 0; with at_end only
-/// once, after the last frame. A node that does not run is the identity.
-struct Gate {
-  std::int64_t from_frame = 0;
-  std::int64_t until_frame = std::numeric_limits<std::int64_t>::max();
-  std::int64_t every = 1;
-  bool at_end = false;
-  bool open(std::int64_t frame) const {
-    return !at_end && frame >= from_frame && frame <= until_frame && (frame - from_frame) % every == 0;
-  }
-};
 
 struct Node {
   std::string name;
@@ -43,7 +32,8 @@ struct Override {
 /// Parses "node.key=value" (also "seed=7"): throws ConfigError.
 Override parse_override(const std::string& text);
 
-/// A program of modules, wired and checked, with parameters set: all that can be known before the first frame has been checked.
+/// A program of modules, wired and checked, with parameters set: all that can be known before the first frame has been
+/// checked.
 class Graph {
  public:
   Graph();
@@ -66,15 +56,15 @@ class Graph {
   }
   /// The graph as it runs: every parameter of every node with its value in force. Loading it gives the same graph.
   std::string effective_yaml() const;
-  /// The `plugins:` of a graph file (paths relative to the file), read before build().
-  static std::vector<std::pair<std::string, Place>> plugins(const Config& file);
+  /// The `plugins:` of a graph file, to be loaded before build(). A relative path starts at the file's folder.
+  static std::vector<std::pair<std::filesystem::path, Place>> plugins(const Config& file);
 
  private:
   friend class GraphBuilder;
   friend class Executor;
   std::string name_;
   std::uint64_t seed_ = 0;
-  std::vector<std::string> plugins_;
+  std::vector<std::filesystem::path> plugins_;  // absolute
   std::vector<Node> nodes_;
   std::vector<std::unique_ptr<std::shared_ptr<const void>>> slots_;
   std::unique_ptr<ParticleSet> belief_;

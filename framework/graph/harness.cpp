@@ -33,7 +33,9 @@ bool Harness::tick() {
   return !context_.ended_;
 }
 
-void Harness::close() { module_->close(context_); }
+void Harness::close() {
+  module_->close(context_);
+}
 
 std::shared_ptr<const void>* Harness::slot(PortDirection direction, const std::string& port, std::type_index type) {
   for (const PortBase* p : module_->ports()) {

@@ -14,7 +14,9 @@ class Metrics {
     std::int64_t frame;
     double value;
   };
-  void record(std::int64_t frame, const std::string& column, double value) { columns_[column].push_back({frame, value}); }
+  void record(std::int64_t frame, const std::string& column, double value) {
+    columns_[column].push_back({frame, value});
+  }
   /// Columns in alphabetical order; rows in order of frames.
   const std::map<std::string, std::vector<Row>>& columns() const { return columns_; }
   /// CSV with a header, one line a frame; an empty field where nothing was recorded.

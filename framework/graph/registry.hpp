@@ -18,8 +18,8 @@ struct ModuleInfo {
   std::function<std::unique_ptr<Module>()> make;
 };
 
-/// The modules that graphs can name. An ordinary object: filled by plain functions (PPM_MODULES), never by static initialisers,
-/// which vanish from static archives.
+/// The modules that graphs can name. An ordinary object: filled by plain functions (PPM_MODULES), never by static
+/// initialisers, which vanish from static archives.
 class Registry {
  public:
   /// Throws InternalError for a malformed or taken name.
@@ -45,14 +45,16 @@ class Registry {
 
 /// Opens the body of the one function of a module's file that registers it:
 ///   PPM_MODULES(r) { r.add<MyModule>("motion.mine", "What it does.", "Where it is from."); }
-/// Built in, the build gives the function a name of its own and calls it (ppm_add_module defines PPM_MODULE_ENTRY); as a
-/// plug-in (ppm_add_plugin defines PPM_PLUGIN) the same source exports it under a fixed name, with the ABI stamp of the headers
-/// that it was compiled against.
+/// Built in, the build gives the function a name of its own and calls it (ppm_add_module defines PPM_MODULE_ENTRY); as
+/// a plug-in (ppm_add_plugin defines PPM_PLUGIN) the same source exports it under a fixed name, with the ABI stamp of
+/// the headers that it was compiled against.
 #ifdef PPM_MODULE_ENTRY
 #define PPM_MODULES(r) void PPM_MODULE_ENTRY(::ppm::Registry& r)
 #elif defined(PPM_PLUGIN)
 #include "framework/graph/abi.hpp"
-#define PPM_MODULES(r)                                                                                     \
-  extern "C" __attribute__((visibility("default"))) const char* ppm_plugin_abi() { return PPM_ABI_STAMP; } \
+#define PPM_MODULES(r)                                                             \
+  extern "C" __attribute__((visibility("default"))) const char* ppm_plugin_abi() { \
+    return PPM_ABI_STAMP;                                                          \
+  }                                                                                \
   extern "C" __attribute__((visibility("default"))) void ppm_plugin_register(::ppm::Registry& r)
 #endif

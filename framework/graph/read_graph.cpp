@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <regex>
+#include <tuple>
+
+#include "framework/graph/graph_builder.hpp"
+
+namespace ppm {
+
+namespace {
+
+std::string category(const std::string& module) {
+  return module.substr(0, module.find('.'));
+}
+
+std::string join(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// What to write in place of an unknown module: the modules of its category, or the categories.
+std::string known_modules(const std::string& name, const Registry& registry) {
+  std::vector<std::string> same, categories;
+  for (const auto& known : registry.names()) {
+    if (category(known) == category(name)) same.push_back(known);
+    if (categories.empty() || categories.back() != category(known)) categories.push_back(category(known));
+  }
+  if (!same.empty()) return fmt::format("; modules of category '{}': {}", category(name), join(same));
+  return fmt::format("; categories: {}", join(categories));
+}
+
+}  // namespace
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
+  auto guess = did_you_mean(word, candidates);
+  return guess.empty() ? "" : fmt::format("; did you mean '{}'?", guess);
+}
+
+Graph GraphBuilder::build(Config file, const std::vector<Override>& overrides) {
+  if (file.kind() != Config::Kind::map) {
+    throw ConfigError(file.place(),
+                      fmt::format("a graph file is a map with name and nodes, not {}", kind_name(file.kind())));
+  }
+  override_tree(file, overrides);
+  read_file(file);
+  wire();
+  check_source(file);
+  check_facets();
+  if (mistakes_.empty()) return std::move(graph_);
+  auto key = [](const Diagnostic& d) { return std::tie(d.place.file, d.place.line, d.place.column); };
+  std::stable_sort(mistakes_.begin(), mistakes_.end(), [&](auto& a, auto& b) { return key(a) < key(b); });
+  throw ConfigError(std::move(mistakes_));
+}
+
+void GraphBuilder::read_file(const Config& file) {
+  check_keys(file, "the graph", {"name", "seed", "plugins", "nodes"});
+  if (auto* name = required(file, "the graph", "name", Config::Kind::scalar)) graph_.name_ = name->text();
+  if (auto* seed = file.find("seed")) {
+    std::int64_t value = 0;
+    Params params;
+    params.add("seed", value).range(0, static_cast<double>(std::numeric_limits<std::int64_t>::max())).doc("Seed.");
+    Config only;
+    only.set("seed", seed->place(), *seed);
+    params.parse(&only, "the graph", file.place(), mistakes_);
+    graph_.seed_ = static_cast<std::uint64_t>(value);
+  }
+  if (auto* plugins = file.find("plugins")) read_plugins(*plugins);
+  for (const auto& [path, place] : Graph::plugins(file)) graph_.plugins_.push_back(path);
+  auto* nodes = required(file, "the graph", "nodes", Config::Kind::sequence);
+  if (!nodes) return;
+  if (nodes->items().empty()) report(nodes->place(), "the graph has no nodes");
+  graph_.nodes_.reserve(nodes->items().size());
+  for (const auto& node : nodes->items()) read_node(node);
+}
+
+void GraphBuilder::read_plugins(const Config& list) {
+  if (list.kind() != Config::Kind::sequence) {
+    report(list.place(), fmt::format("plugins is a sequence of libraries, not {}", kind_name(list.kind())));
+  }
+  for (const auto& item : list.items()) {
+    if (item.kind() != Config::Kind::scalar) report(item.place(), "a plug-in is the path of a library");
+  }
+}
+
+void GraphBuilder::read_node(const Config& tree) {
+  if (tree.kind() != Config::Kind::map) {
+    report(tree.place(), fmt::format("a node is a map such as {{name: x, module: y}}, not {}", kind_name(tree.kind())));
+    return;
+  }
+  check_keys(tree, "a node", {"name", "module", "in", "when", "params"});
+  Node node;
+  node.place = tree.place();
+  read_node_name(tree, node);
+  Place module_place = tree.place();
+  make_module(tree, node, module_place);
+  node.gate.parse(tree.find("when"), node.place, mistakes_);
+  graph_.nodes_.push_back(std::move(node));
+  written_.push_back({&tree, std::move(module_place)});
+}
+
+void GraphBuilder::read_node_name(const Config& tree, Node& node) {
+  static const std::regex pattern("[A-Za-z][A-Za-z0-9_]*");
+  const Config* name = required(tree, "a node", "name", Config::Kind::scalar);
+  if (!name) return;
+  node.name = name->text();
+  if (!std::regex_match(node.name, pattern)) {
+    report(name->place(), fmt::format("node name '{}': a letter first, then letters, digits and '_'", node.name));
+  }
+  for (const auto& other : graph_.nodes_) {
+    if (other.name != node.name) continue;
+    report(name->place(), fmt::format("node name '{}' is taken, by the node at {}", node.name, to_string(other.place)));
+    break;
+  }
+}
+
+void GraphBuilder::make_module(const Config& tree, Node& node, Place& place) {
+  const Config* name = required(tree, "a node", "module", Config::Kind::scalar);
+  const ModuleInfo* info = name ? registry_.find(name->text()) : nullptr;
+  if (name && !info) {
+    report(name->place(),
+           fmt::format("unknown module '{}'{}{}", name->text(), suggestion(name->text(), registry_.names()),
+                       known_modules(name->text(), registry_)));
+    info = registry_.find(did_you_mean(name->text(), registry_.names()));
+  }
+  if (name) place = name->place();
+  if (!info) {
+    unknown_module_ = true;
+    return;
+  }
+  node.module_name = info->name;
+  node.module = info->make();
+  node.module->params().parse(tree.find("params"), info->name, place, mistakes_);
+}
+
+void GraphBuilder::check_keys(const Config& map, const std::string& owner, const std::vector<std::string>& allowed) {
+  for (const auto& entry : map.entries()) {
+    if (std::ranges::find(allowed, entry.key) != allowed.end()) continue;
+    auto hint = suggestion(entry.key, allowed);
+    if (hint.empty()) hint = fmt::format("; keys: {}", join(allowed));
+    report(entry.key_place, fmt::format("unknown key '{}' of {}{}", entry.key, owner, hint));
+  }
+}
+
+const Config* GraphBuilder::required(const Config& map, const std::string& owner, const std::string& key,
+                                     Config::Kind kind) {
+  const Config* value = map.find(key);
+  if (!value) {
+    report(map.place(), fmt::format("{} needs the key '{}'", owner, key));
+  } else if (value->kind() != kind) {
+    report(value->place(), fmt::format("'{}' must be {}, not {}", key, kind_name(kind), kind_name(value->kind())));
+    return nullptr;
+  }
+  return value;
+}
+
+}  // namespace ppm

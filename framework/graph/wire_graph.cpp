@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "framework/graph/graph_builder.hpp"
+#include "framework/slam/particle_set.hpp"
+
+namespace ppm {
+
+namespace {
+
+std::vector<PortBase*> ports_of(const Node& node, PortDirection direction) {
+  std::vector<PortBase*> found;
+  if (!node.module) return found;
+  for (auto* port : node.module->ports()) {
+    if (port->direction() == direction) found.push_back(port);
+  }
+  return found;
+}
+
+PortBase* find_port(const Node& node, PortDirection direction, const std::string& name) {
+  for (auto* port : ports_of(node, direction)) {
+    if (port->name() == name) return port;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> names_of(const std::vector<PortBase*>& ports) {
+  std::vector<std::string> names;
+  for (auto* port : ports) names.push_back(port->name());
+  return names;
+}
+
+/// "; did you mean 'x'?", else "; its outputs: x, y", else "; it has no outputs".
+std::string port_hint(const std::string& word, const std::vector<PortBase*>& ports, const std::string& what) {
+  auto names = names_of(ports);
+  auto hint = suggestion(word, names);
+  if (!hint.empty()) return hint;
+  return names.empty() ? "; it has no " + what : fmt::format("; its {}: {}", what, fmt::join(names, ", "));
+}
+
+/// A node that makes values and needs none: it alone can end a run.
+bool is_source(const Node& node) {
+  return !ports_of(node, PortDirection::out).empty() && ports_of(node, PortDirection::in).empty() &&
+         ports_of(node, PortDirection::belief).empty();
+}
+
+}  // namespace
+
+void GraphBuilder::wire() {
+  for (std::size_t i = 0; i < graph_.nodes_.size(); ++i) {
+    for (auto* port : ports_of(graph_.nodes_[i], PortDirection::belief)) {
+      static_cast<BeliefPortBase*>(port)->belief_ = graph_.belief_.get();
+    }
+    wire_node(i);
+    make_outputs(i);
+  }
+}
+
+void GraphBuilder::wire_node(std::size_t i) {
+  const Config* in = written_[i].tree->find("in");
+  if (in && in->kind() != Config::Kind::map) {
+    report(in->place(), fmt::format("'in' is a map such as {{frame: camera.frame}}, not {}", kind_name(in->kind())));
+    return;
+  }
+  if (in) {
+    for (const auto& entry : in->entries()) wire_input(i, entry);
+  }
+  for (auto* port : ports_of(graph_.nodes_[i], PortDirection::in)) {
+    if (!in || !in->find(port->name())) report_unwired(i, *port);
+  }
+}
+
+void GraphBuilder::wire_input(std::size_t i, const Config::Entry& entry) {
+  Node& node = graph_.nodes_[i];
+  PortBase* input = find_port(node, PortDirection::in, entry.key);
+  if (!input && node.module) {
+    if (find_port(node, PortDirection::belief, entry.key)) {
+      report(entry.key_place, "the belief needs no 'in' line: it goes through the nodes from top to bottom");
+      return;
+    }
+    report(entry.key_place, fmt::format("module '{}' has no input '{}'{}", node.module_name, entry.key,
+                                        port_hint(entry.key, ports_of(node, PortDirection::in), "inputs")));
+  }
+  const PortBase* output = find_output(i, entry.value);
+  if (!input || !output) return;
+  if (input->type() != output->type()) {
+    report(entry.value.place(), fmt::format("input '{}' takes a '{}', but '{}' is a '{}'", entry.key,
+                                            input->type_name(), entry.value.text(), output->type_name()));
+    return;
+  }
+  input->slot_ = output->slot_;
+  node.edges.push_back({entry.key, entry.value.text()});
+}
+
+const PortBase* GraphBuilder::find_output(std::size_t i, const Config& source) {
+  const auto& text = source.text();
+  const auto dot = text.find('.');
+  if (source.kind() != Config::Kind::scalar || dot == std::string::npos) {
+    report(source.place(), "an input is written as node.output, such as camera.frame");
+    return nullptr;
+  }
+  const std::string name = text.substr(0, dot);
+  const auto& nodes = graph_.nodes_;
+  const auto end = nodes.begin() + static_cast<std::ptrdiff_t>(i);
+  auto named = [&](const Node& n) { return n.name == name; };
+  auto maker = std::find_if(nodes.begin(), end, named);
+  if (maker == end) {
+    std::vector<std::string> above;
+    for (auto it = nodes.begin(); it != end; ++it) above.push_back(it->name);
+    const bool below = std::any_of(end, nodes.end(), named);
+    report(source.place(), below && nodes[i].name == name ? fmt::format("node '{}' cannot use its own output", name)
+                           : below ? fmt::format("node '{}' is below; nodes use only what was made above them", name)
+                                   : fmt::format("no node '{}' above{}", name, suggestion(name, above)));
+    return nullptr;
+  }
+  const PortBase* output = find_port(*maker, PortDirection::out, text.substr(dot + 1));
+  if (!output && maker->module) {
+    report(source.place(),
+           fmt::format("node '{}' has no output '{}'{}", name, text.substr(dot + 1),
+                       port_hint(text.substr(dot + 1), ports_of(*maker, PortDirection::out), "outputs")));
+  }
+  return output;
+}
+
+void GraphBuilder::report_unwired(std::size_t i, const PortBase& input) {
+  std::vector<std::string> above;
+  for (std::size_t k = 0; k < i; ++k) {
+    for (auto* port : ports_of(graph_.nodes_[k], PortDirection::out)) {
+      if (port->type() == input.type()) above.push_back(graph_.nodes_[k].name + "." + port->name());
+    }
+  }
+  std::string hint = fmt::format("no node above makes a '{}'", input.type_name());
+  if (above.size() == 1) hint = fmt::format("did you mean in: {{{}: {}}}?", input.name(), above[0]);
+  if (above.size() > 1) hint = fmt::format("outputs of its type above: {}", fmt::join(above, ", "));
+  report(written_[i].module,
+         fmt::format("input '{}' of module '{}' is not wired; {}", input.name(), graph_.nodes_[i].module_name, hint));
+}
+
+void GraphBuilder::make_outputs(std::size_t i) {
+  const Node& node = graph_.nodes_[i];
+  for (auto* port : ports_of(node, PortDirection::out)) {
+    graph_.slots_.push_back(std::make_unique<std::shared_ptr<const void>>());
+    port->slot_ = graph_.slots_.back().get();
+    if (!node.gate.always() && !port->identity()) {
+      report(
+          written_[i].tree->find("when")->place(),
+          fmt::format(
+              "module '{}' cannot have 'when': nothing stands in for its output '{}' in frames where it does not run",
+              node.module_name, port->name()));
+    }
+  }
+}
+
+void GraphBuilder::check_source(const Config& file) {
+  if (unknown_module_ || graph_.nodes_.empty() || std::ranges::any_of(graph_.nodes_, is_source)) return;
+  std::vector<std::string> sources;
+  for (const auto& name : registry_.names()) {
+    if (name.starts_with("source.")) sources.push_back(name);
+  }
+  report(file.find("nodes")->place(),
+         fmt::format("the graph has no source of frames; modules that are one: {}", fmt::join(sources, ", ")));
+}
+
+}  // namespace ppm
