@@ -80,6 +80,10 @@ void FrameSource::tick(Context& context) {
     return;
   }
   auto next = std::make_shared<const Frame>(prefetched_.get());
+  if (next_ > 0 && !(next->stamp_s > last_stamp_s_))
+    throw DataError(sequence_->name(), next->index,
+                    fmt::format("its stamp, {} s, is not later than {} s of the image before", next->stamp_s, last_stamp_s_));
+  last_stamp_s_ = next->stamp_s;
   ++next_;
   prefetch();
   frame.set(std::move(next));

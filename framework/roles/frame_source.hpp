@@ -20,7 +20,7 @@ namespace ppm {
 /// is thrown by the tick whose image it is.
 class FrameSource : public Module {
  public:
-  Out<Frame> frame{this, "frame", "The next image that is not held out."};
+  Out<Frame> frame{this, "frame", "The next image that is not held out; each is later than the one before."};
 
   void open(Context& context) override;
   void tick(Context& context) override;
@@ -55,6 +55,7 @@ class FrameSource : public Module {
 
   FrameSelection selection_;
   std::size_t next_ = 0;
+  double last_stamp_s_ = 0;
   std::unique_ptr<const FrameSequence> sequence_;
   std::future<Frame> prefetched_;  // below what load() reads: it is waited for first
 };

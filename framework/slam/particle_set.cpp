@@ -19,6 +19,7 @@ void ParticleSet::init(std::size_t n, const Pose& T_map_camera, MapHandle map_ha
 void ParticleSet::extend(std::size_t i, const StampedPose& next) {
   pose[i] = next.T_map_camera;
   trajectory[i].extend(next);
+  prediction[i].reset();
 }
 
 void ParticleSet::correct(std::size_t i, const Pose& T_map_camera) {
@@ -26,7 +27,8 @@ void ParticleSet::correct(std::size_t i, const Pose& T_map_camera) {
   StampedPose last = trajectory[i].last();
   last.T_map_camera = T_map_camera;
   trajectory[i] = trajectory[i].parent();
-  extend(i, last);
+  trajectory[i].extend(last);
+  pose[i] = T_map_camera;
 }
 
 void ParticleSet::gather(const std::vector<std::uint32_t>& ancestors) {

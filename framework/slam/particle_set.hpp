@@ -60,7 +60,7 @@ class ParticleSet {
   std::size_t size() const { return pose.size(); }
   /// n particles at one pose with equal weights and one shared map. Drops all paths; typed columns are resized and kept.
   void init(std::size_t n, const Pose& T_map_camera, MapHandle map_handle);
-  /// Appends the particle's new pose for a new frame to its path.
+  /// Appends the particle's new pose for a new frame to its path, and drops its prediction, which was of the frame before.
   void extend(std::size_t i, const StampedPose& pose);
   /// Replaces the pose that this frame's extend() gave (a proposal that looked at the image; a refinement).
   void correct(std::size_t i, const Pose& T_map_camera);

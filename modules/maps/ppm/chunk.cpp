@@ -24,9 +24,9 @@ Eigen::Vector3f Geometry::point(std::size_t f, float u, float v) const {
   return (1 - u - v) * position[a] + u * position[b] + v * position[c];
 }
 
-std::uint32_t Geometry::find_vertex(std::uint32_t id) const {
-  auto it = std::lower_bound(vertex_id.begin(), vertex_id.end(), id);
-  return it != vertex_id.end() && *it == id ? static_cast<std::uint32_t>(it - vertex_id.begin()) : kNoVertex;
+std::uint32_t Geometry::find_vertex(std::uint32_t vertex) const {
+  auto it = std::lower_bound(vertex_id.begin(), vertex_id.end(), vertex);
+  return it != vertex_id.end() && *it == vertex ? static_cast<std::uint32_t>(it - vertex_id.begin()) : kNoVertex;
 }
 
 std::int64_t Geometry::bytes() const {

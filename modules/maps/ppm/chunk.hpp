@@ -25,8 +25,8 @@ struct Geometry {
 
   Eigen::Vector3f face_normal(std::size_t f) const;  ///< unit
   Eigen::Vector3f point(std::size_t f, float u, float v) const;  ///< (1-u-v) p0 + u p1 + v p2
-  /// Index of the vertex with that id, or kNoVertex. Binary search.
-  std::uint32_t find_vertex(std::uint32_t id) const;
+  /// Index of the vertex with that vertex_id, or kNoVertex. Binary search.
+  std::uint32_t find_vertex(std::uint32_t vertex) const;
   static constexpr std::uint32_t kNoVertex = 0xffffffffu;
   std::int64_t bytes() const;
 };

@@ -43,6 +43,7 @@ class PpmEdit {
 
  private:
   struct Staged;
+  class Commit;
   std::shared_ptr<PpmMap> map_;
   std::unique_ptr<Staged> staged_;
 };

@@ -1,0 +1,90 @@
+#include "framework/roles/weighting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ppm {
+namespace {
+
+double entropy(const std::vector<double>& log_weight) {
+  double sum = 0;
+  for (double l : log_weight)
+    if (std::isfinite(l)) sum -= std::exp(l) * l;
+  return sum;
+}
+
+}  // namespace
+
+Weighting::Weighting() : belief(this, {{"prediction"}, {}, {}}) {
+  params_.add("pixels", pixels_)
+      .range(0, 1e8)
+      .doc("About how many pixels of the predicted image to compare, on a regular grid (the finest that has no more); 0 compares all.");
+  params_.add_choice("phase", phase_, {{"centred", Phase::centred}, {"random", Phase::random}})
+      .doc("Where the grid of compared pixels starts: centred in every frame alike, or random for each frame (one grid for all particles).");
+}
+
+void Weighting::before(Context& context) {
+  measured_made_ = false;
+  residuals_.resize(context.threads());
+  scores_.assign(belief->size(), {});
+  if (phase_ == Phase::random) {
+    Rng rng = context.rng("phase");
+    phase_x_ = rng.uniform();
+    phase_y_ = rng.uniform();
+  }
+}
+
+const MeasuredPixels& Weighting::measured(const Prediction& prediction) {
+  std::lock_guard lock(mutex_);
+  if (measured_made_) return measured_;
+  PixelGrid grid;
+  grid.jump_m = jump_m_;
+  const Camera& camera = prediction.camera;
+  auto count = [&](int step) { return ((camera.cols + step - 1) / step) * ((camera.rows + step - 1) / step); };
+  while (pixels_ > 0 && count(grid.step) > pixels_) ++grid.step;
+  grid.first_x = static_cast<int>(phase_x_ * grid.step);
+  grid.first_y = static_cast<int>(phase_y_ * grid.step);
+  measured_ = measured_pixels(*frame, camera, prediction.stride, grid);
+  measured_made_ = true;
+  return measured_;
+}
+
+void Weighting::tick(Context&, std::size_t particle, int worker) {
+  const Prediction& prediction = *belief->prediction[particle];
+  const MeasuredPixels& pixels = measured(prediction);
+  residuals_[worker].compute(pixels, prediction);
+  scores_[particle] = score(pixels, residuals_[worker]);
+}
+
+void Weighting::after(Context& context) {
+  std::vector<double> weight = belief->log_weight;
+  bool any_hit = false, any_finite = false;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] += scores_[i].log_likelihood;
+    if (!std::isfinite(weight[i])) weight[i] = -std::numeric_limits<double>::infinity();
+    any_hit |= scores_[i].hits > 0;
+    any_finite |= std::isfinite(weight[i]);
+  }
+  const bool degenerate = !any_hit || !any_finite;
+  if (!degenerate) {
+    belief->log_weight = std::move(weight);
+    belief->normalize();
+  } else if (!warned_) {
+    context.log().warning("{}: frame {}: {}; weights stay as they were (said once)", context.node(), context.frame(),
+                          any_hit ? "no particle has a finite weight" : "no compared pixel hits a map");
+    warned_ = true;
+  }
+  const ViewScore& best = scores_[belief->best()];
+  auto share = [](std::size_t part, std::size_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+  };
+  context.metric("ess", belief->ess());
+  context.metric("entropy", entropy(belief->log_weight));
+  context.metric("residual", best.hits > 0 ? best.residual_sum / static_cast<double>(best.hits) : 0.0);
+  context.metric("outlier_share", share(best.outliers, best.hits));
+  context.metric("miss_share", share(best.misses, best.hits + best.misses));
+  context.metric("degenerate", degenerate ? 1.0 : 0.0);
+}
+
+}  // namespace ppm

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstddef>
+#include <mutex>
+#include <vector>
+
+#include "framework/core/parallel.hpp"
+#include "framework/graph/particle_module.hpp"
+#include "framework/slam/frame.hpp"
+#include "framework/slam/measured_pixels.hpp"
+
+namespace ppm {
+
+/// How well one particle's view explains a frame.
+struct ViewScore {
+  double log_likelihood = 0;
+  std::size_t hits = 0, misses = 0;  ///< compared pixels where the map shows something, and nothing
+  std::size_t outliers = 0;          ///< hits that the likelihood holds for something else than the map's surface
+  double residual_sum = 0;           ///< m, of |measured - expected| over the hits
+};
+
+/// Base of every `weighting.*`: adds the log likelihood of a frame to every particle and normalises. It knows no map: a
+/// likelihood compares ranges only.
+/// belief   needs a prediction of the frame's own camera (any stride); changes log_weight only
+/// Where no particle's map shows anything at a compared pixel, or no particle's new weight is finite, the weights stay as they were:
+/// a warning says so once, and the metric `degenerate` is 1 in that frame. A particle whose likelihood is no number gets weight 0.
+/// metrics  ess, entropy (nats); of the best particle: residual (mean absolute, m), outlier_share (of hits), miss_share (of
+///          compared pixels); degenerate
+class Weighting : public ParticleModule {
+ public:
+  In<Frame> frame{this, "frame", "The measured image."};
+  InOut<Belief> belief;
+
+  void before(Context& context) override;
+  using ParticleModule::tick;
+  void tick(Context& context, std::size_t particle, int worker) override;
+  void after(Context& context) override;
+  /// after() normalises.
+  bool ends_loop() const override { return true; }
+  const ParticleSet& particles() const override { return *belief; }
+
+ protected:
+  Weighting();
+  /// The likelihood of the measured ranges. Called from any worker; sums in the order of the pixels.
+  virtual ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals) const = 0;
+
+  int pixels_ = 0;
+  double jump_m_ = 0;
+
+ private:
+  const MeasuredPixels& measured(const Prediction& prediction);
+
+  enum class Phase { centred, random } phase_ = Phase::centred;
+  double phase_x_ = 0.5, phase_y_ = 0.5;  // of this frame, in steps
+  std::mutex mutex_;                      // guards measured_: made by the first tick of a frame, when the prediction's stride is known
+  bool measured_made_ = false;
+  MeasuredPixels measured_;
+  PerWorker<RangeResiduals> residuals_;
+  std::vector<ViewScore> scores_;  // of this frame's particles, from tick() to after()
+  bool warned_ = false;
+};
+
+}  // namespace ppm

@@ -1,0 +1,66 @@
+#include "framework/slam/measured_pixels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/core/error.hpp"
+
+namespace ppm {
+namespace {
+
+// True where the depth at (x, y) is off the plane through its two neighbours, along the row or the column, by more than jump_m
+// and what the sensor's noise explains. Planes are linear in disparity, so a slope is no jump.
+bool at_jump(const Frame& frame, int x, int y, double jump_m) {
+  const Camera& camera = frame.camera;
+  auto index = [&](int px, int py) { return static_cast<std::size_t>(py * camera.cols + px); };
+  const double z = frame.depth[index(x, y)];
+  const double limit = std::max(jump_m, 5.0 * frame.sigma[index(x, y)]);
+  auto off = [&](std::size_t before, std::size_t after) {
+    const double bend = 1.0 / frame.depth[before] + 1.0 / frame.depth[after] - 2.0 / z;
+    return std::abs(bend) * z * z > limit;  // false where a neighbour has no return
+  };
+  return (x > 0 && x + 1 < camera.cols && off(index(x - 1, y), index(x + 1, y))) ||
+         (y > 0 && y + 1 < camera.rows && off(index(x, y - 1), index(x, y + 1)));
+}
+
+}  // namespace
+
+MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int stride, const PixelGrid& grid) {
+  PPM_CHECK(predicted == frame.camera.decimated(stride), "the prediction is of another camera than the frame");
+  MeasuredPixels out;
+  for (int y = grid.first_y; y < predicted.rows; y += grid.step)
+    for (int x = grid.first_x; x < predicted.cols; x += grid.step) {
+      const int at = stride * y * frame.camera.cols + stride * x;
+      if (!frame.valid(at)) continue;
+      if (grid.jump_m > 0 && at_jump(frame, stride * x, stride * y, grid.jump_m)) continue;
+      const auto source = static_cast<std::size_t>(at);
+      const Eigen::Vector3d ray = predicted.ray(x, y);
+      const double length = ray.norm();
+      out.pixel.push_back(static_cast<std::uint32_t>(y * predicted.cols + x));
+      out.range.push_back(static_cast<float>(frame.depth[source] * length));
+      out.variance.push_back(static_cast<float>(std::pow(frame.sigma[source] * length, 2)));
+      out.spacing.push_back(static_cast<float>(frame.depth[source] / std::abs(frame.camera.fx)));
+      for (int k = 0; k < 3; ++k) out.direction.push_back(static_cast<float>(ray[k] / length));
+    }
+  return out;
+}
+
+void RangeResiduals::compute(const MeasuredPixels& measured, const Prediction& prediction) {
+  const std::size_t n = measured.size();
+  residual.resize(n);
+  map_variance.resize(n);
+  cosine.resize(n);
+  const Eigen::Matrix3f R = prediction.T_map_camera.linear().cast<float>();
+  constexpr auto least = static_cast<float>(Prediction::kMinCosine);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t p = measured.pixel[i];
+    const Eigen::Vector3f normal(&prediction.normal[3 * p]), direction(&measured.direction[3 * i]);
+    const float c = std::max(std::abs(normal.dot(R * direction)), least);
+    const bool hit = prediction.hit(p);
+    residual[i] = hit ? measured.range[i] - (prediction.range[p] - prediction.mean[p] / c) : Prediction::kMiss;
+    map_variance[i] = prediction.variance[p] / (c * c);
+    cosine[i] = hit ? c : 1.f;
+  }
+}
+
+}  // namespace ppm

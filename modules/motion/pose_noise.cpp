@@ -1,0 +1,25 @@
+#include "modules/motion/pose_noise.hpp"
+
+#include <numbers>
+
+namespace ppm {
+
+void PoseNoise::declare(Params& params) {
+  params.add("sigma_t", sigma_t)
+      .unit("m")
+      .range(0, 10)
+      .doc("Standard deviation of the translation noise added in each frame, along each axis of the camera.");
+  params.add("sigma_r", sigma_r)
+      .unit("rad")
+      .range(0, std::numbers::pi)
+      .doc("Standard deviation of the rotation noise added in each frame, about each axis of the camera.");
+}
+
+Pose PoseNoise::draw(Rng rng) const {
+  Twist xi;
+  for (int i = 0; i < 3; ++i) xi[i] = sigma_t * rng.normal();
+  for (int i = 3; i < 6; ++i) xi[i] = sigma_r * rng.normal();
+  return se3_exp(xi);
+}
+
+}  // namespace ppm

@@ -1,0 +1,19 @@
+#pragma once
+#include "framework/config/params.hpp"
+#include "framework/core/rng.hpp"
+#include "framework/core/se3.hpp"
+
+namespace ppm {
+
+/// Gaussian noise of a pose: a twist in the camera's own frame whose entries are independent.
+struct PoseNoise {
+  double sigma_t = 0;  ///< m, along each axis
+  double sigma_r = 0;  ///< rad, about each axis
+
+  /// Declares the parameters sigma_t and sigma_r, with the values held as defaults.
+  void declare(Params& params);
+  /// T_camera_noisy; six draws, translation first.
+  Pose draw(Rng rng) const;
+};
+
+}  // namespace ppm
