@@ -1,0 +1,123 @@
+#include "modules/sources/tof_camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "framework/core/rng.hpp"
+
+namespace ppm {
+namespace {
+
+constexpr double kLightSpeed = 299792458;
+constexpr double kPhasePerMetre = 4 * EIGEN_PI * TofCamera::kModulation_Hz / kLightSpeed;
+
+/// What a ray brings back.
+struct Echo {
+  double range_m = 0, amplitude = 0, cosine = 0;
+  std::uint32_t solid = SceneHit::kNone;
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();  // linear light
+};
+
+/// Light of a lamp below the ceiling and of the sky through the room, for pictures.
+Eigen::Vector3f lit(const Eigen::Vector3f& albedo, const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
+  const double lamp = std::max(0.0, normal.dot((Eigen::Vector3d(0, 0.3, 2.3) - p).normalized()));
+  return albedo * static_cast<float>(0.40 + 0.10 * normal.z() + 0.50 * lamp);
+}
+
+Echo echo(const AnalyticScene& scene, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, bool color) {
+  const SceneHit hit = scene.cast(origin, direction);
+  if (hit.solid == SceneHit::kNone) return {};
+  Echo e{hit.range_m, 0, -hit.normal.dot(direction), hit.solid, {}};
+  const Eigen::Vector3f& albedo = scene.solids()[hit.solid].albedo;
+  e.amplitude = albedo.mean() * e.cosine / (hit.range_m * hit.range_m);
+  if (color) e.color = lit(albedo, origin + hit.range_m * direction, hit.normal);
+  return e;
+}
+
+/// One image being made.
+class Exposure {
+ public:
+  Exposure(const TofCamera& tof, const AnalyticScene& scene, const Pose& T_world_camera)
+      : tof_(tof), scene_(scene), T_(T_world_camera), cols_(tof.camera.cols), rows_(tof.camera.rows) {
+    echoes_.reserve(static_cast<std::size_t>(tof.camera.pixels()));
+    for (int y = 0; y < rows_; ++y)
+      for (int x = 0; x < cols_; ++x) echoes_.push_back(sample(x, y));
+  }
+  /// What the pixel's whole area brings back: a phasor sum where more than one surface is in it.
+  Echo pixel(int x, int y) const {
+    const Echo& centre = at(x, y);
+    return tof_.flying_pixels && on_edge(x, y) ? mixed(x, y, centre) : centre;
+  }
+
+ private:
+  const Echo& at(int x, int y) const { return echoes_[static_cast<std::size_t>(y * cols_ + x)]; }
+  Echo sample(double x, double y) const {
+    return echo(scene_, T_.translation(), T_.linear() * tof_.camera.ray(x, y).normalized(), tof_.color);
+  }
+  bool on_edge(int x, int y) const {
+    const std::uint32_t solid = at(x, y).solid;
+    for (int v = std::max(0, y - 1); v <= std::min(rows_ - 1, y + 1); ++v)
+      for (int u = std::max(0, x - 1); u <= std::min(cols_ - 1, x + 1); ++u)
+        if (at(u, v).solid != solid) return true;
+    return false;
+  }
+  Echo mixed(int x, int y, const Echo& centre) const {
+    constexpr int kSamples = 9;
+    std::complex<double> phasor = 0;
+    Echo sum = centre;
+    sum.color.setZero();
+    for (int k = 0; k < kSamples; ++k) {
+      const Echo e = k == kSamples / 2 ? centre : sample(x + (k % 3 - 1) / 3.0, y + (k / 3 - 1) / 3.0);
+      phasor += std::polar(e.amplitude, e.range_m * kPhasePerMetre);
+      sum.color += e.color / kSamples;
+    }
+    sum.amplitude = std::abs(phasor) / kSamples;
+    sum.range_m = std::arg(phasor) / kPhasePerMetre;
+    if (sum.range_m < 0) sum.range_m += 2 * EIGEN_PI / kPhasePerMetre;
+    return sum;
+  }
+
+  const TofCamera& tof_;
+  const AnalyticScene& scene_;
+  const Pose& T_;
+  int cols_, rows_;
+  std::vector<Echo> echoes_;  // of the pixels' centres
+};
+
+void append_srgb(const Eigen::Vector3f& linear, std::vector<std::uint8_t>& out) {
+  for (int k = 0; k < 3; ++k)
+    out.push_back(static_cast<std::uint8_t>(std::lround(255 * std::pow(std::clamp(linear[k], 0.0f, 1.0f), 1 / 2.2f))));
+}
+
+}  // namespace
+
+double TofCamera::range_sigma(double amplitude) const {
+  return std::max(1e-4, noise * std::hypot(kFloor_m, kSlope_m / amplitude));
+}
+
+void TofCamera::render(const AnalyticScene& scene, const Pose& T_world_camera, std::uint64_t seed, Frame& frame) const {
+  const Exposure exposure(*this, scene, T_world_camera);
+  const auto n = static_cast<std::size_t>(camera.pixels());
+  frame.camera = camera;
+  frame.depth.assign(n, std::numeric_limits<float>::quiet_NaN());
+  frame.sigma.assign(n, std::numeric_limits<float>::quiet_NaN());
+  frame.color.clear();
+  const std::uint32_t purpose = purpose_key("tof_camera/noise");
+  for (int y = 0; y < camera.rows; ++y) {
+    Rng rng(seed, static_cast<std::uint32_t>(frame.index), static_cast<std::uint32_t>(y), purpose);
+    for (int x = 0; x < camera.cols; ++x) {
+      const Echo e = exposure.pixel(x, y);
+      const double range_noise = rng.normal(), amplitude_noise = rng.normal();  // drawn for every pixel: the order is fixed
+      if (color) append_srgb(e.color, frame.color);
+      if (e.cosine < kLeastCosine || e.amplitude * (1 + 0.1 * noise * amplitude_noise) < kLeastAmplitude) continue;
+      const double sigma = range_sigma(e.amplitude), z_per_range = 1 / camera.ray(x, y).norm();
+      const auto i = static_cast<std::size_t>(y * camera.cols + x);
+      frame.depth[i] = static_cast<float>((e.range_m + (noise > 0 ? sigma * range_noise : 0.0)) * z_per_range);
+      frame.sigma[i] = static_cast<float>(sigma * z_per_range);
+    }
+  }
+}
+
+}  // namespace ppm
