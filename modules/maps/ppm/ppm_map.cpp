@@ -3,7 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/core/error.hpp"
+
 namespace ppm {
+
+PpmMap::PpmMap(const PpmSettings& settings) : settings_(settings) {
+  PPM_CHECK(settings.cell_size_m > 0 && settings.texel_size_m > 0 && settings.prior_sigma_m > 0, "cell {} m, texel {} m, prior {} m",
+            settings.cell_size_m, settings.texel_size_m, settings.prior_sigma_m);
+  PPM_CHECK(settings.max_divisions >= 1 && settings.max_divisions <= 255, "{} divisions", settings.max_divisions);
+}
 
 Cell PpmMap::cell_of(const Eigen::Vector3f& p) const {
   return (p.cast<double>() / settings_.cell_size_m).array().floor().cast<int>();

@@ -21,7 +21,8 @@ struct PpmSettings {
 /// Source: paper, section 3.
 class PpmMap final : public Map {
  public:
-  explicit PpmMap(PpmSettings settings) : settings_(settings) {}
+  /// An empty map. The settings must be positive, max_divisions at most 255 (InternalError).
+  explicit PpmMap(const PpmSettings& settings);
   std::string_view kind() const override { return "ppm"; }
   MapStats stats() const override;
   std::int64_t account(std::unordered_set<const void*>& seen) const override;
