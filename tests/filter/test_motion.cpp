@@ -1,0 +1,148 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "framework/core/error.hpp"
+#include "framework/graph/harness.hpp"
+#include "framework/slam/frame.hpp"
+#include "tests/support/registry.hpp"
+
+namespace {
+
+using ppm::Pose;
+using ppm::Twist;
+
+std::shared_ptr<const ppm::Frame> frame_at(std::int64_t index, double stamp_s, std::optional<Pose> reference = {}) {
+  auto frame = std::make_shared<ppm::Frame>();
+  frame->index = index;
+  frame->stamp_s = stamp_s;
+  frame->T_world_camera_ref = reference;
+  return frame;
+}
+
+double distance(const Pose& a, const Pose& b) { return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff(); }
+
+Twist some_twist() {
+  Twist xi;
+  xi << 0.03, -0.01, 0.05, 0.02, 0.04, -0.03;
+  return xi;
+}
+
+/// n particles with the path exp(0), exp(xi) at 0 s and 0.1 s.
+void begin(ppm::ParticleSet& belief, std::size_t n, const Twist& xi) {
+  belief.init(n, Pose::Identity(), nullptr);
+  for (std::size_t i = 0; i < n; ++i) {
+    belief.extend(i, {0, 0.0, Pose::Identity()});
+    belief.extend(i, {1, 0.1, ppm::se3_exp(xi)});
+  }
+}
+
+}  // namespace
+
+TEST_CASE("without noise, constant velocity stays on a path of constant velocity, over skipped frames too") {
+  ppm::Harness h(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 0, sigma_r: 0}");
+  begin(h.belief(), 2, some_twist());
+  for (double steps : {2.0, 3.0, 5.0, 5.5, 9.0}) {  // frames 4 and 6 to 8 are missing, 5.5 is between two
+    h.input<ppm::Frame>("frame", frame_at(static_cast<std::int64_t>(10 * steps), 0.1 * steps));
+    h.tick();
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(distance(h.belief().pose[i], ppm::se3_exp(steps * some_twist())) < 1e-9);
+      CHECK(h.belief().trajectory[i].last().stamp_s == 0.1 * steps);
+      CHECK(h.belief().trajectory[i].last().frame == static_cast<std::int64_t>(10 * steps));
+    }
+  }
+}
+
+TEST_CASE("a path of one pose has no velocity; decay shortens it") {
+  ppm::Harness still(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 0, sigma_r: 0}");
+  still.belief().init(1, ppm::se3_exp(some_twist()), nullptr);
+  still.belief().extend(0, {0, 0.0, ppm::se3_exp(some_twist())});
+  still.input<ppm::Frame>("frame", frame_at(1, 0.1));
+  still.tick();
+  CHECK(distance(still.belief().pose[0], ppm::se3_exp(some_twist())) < 1e-15);
+
+  ppm::Harness slowing(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 0, sigma_r: 0, velocity_decay: 0.5}");
+  begin(slowing.belief(), 1, some_twist());
+  slowing.input<ppm::Frame>("frame", frame_at(2, 0.2));
+  slowing.tick();
+  CHECK(distance(slowing.belief().pose[0], ppm::se3_exp(1.5 * some_twist())) < 1e-12);
+}
+
+TEST_CASE("the noise of constant velocity has the covariance of its parameters, in the camera frame") {
+  constexpr std::size_t n = 20'000;
+  ppm::Harness h(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 2 cm, sigma_r: 1 deg}");
+  begin(h.belief(), n, some_twist());
+  h.input<ppm::Frame>("frame", frame_at(2, 0.2));
+  h.tick();
+  const Pose predicted = ppm::se3_exp(2 * some_twist());
+  Twist mean = Twist::Zero();
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Twist xi = ppm::se3_log(predicted.inverse() * h.belief().pose[i]);
+    mean += xi / n;
+    covariance += xi * xi.transpose() / n;
+  }
+  Twist sigma;
+  sigma << Eigen::Vector3d::Constant(0.02), Eigen::Vector3d::Constant(std::numbers::pi / 180);
+  // The standard error of a variance from n draws is sqrt(2/n) of it, 1 %: 5 % is beyond 4.9 of them.
+  for (int a = 0; a < 6; ++a) {
+    CHECK(std::abs(mean[a]) < 4 * sigma[a] / std::sqrt(n));
+    CHECK(covariance(a, a) == Approx(sigma[a] * sigma[a]).epsilon(0.05));
+    for (int b = 0; b < a; ++b) CHECK(std::abs(covariance(a, b)) < 0.05 * sigma[a] * sigma[b]);
+  }
+}
+
+TEST_CASE("poses are the same bytes for any number of threads, and differ between seeds and frames") {
+  auto run = [](int threads, std::uint64_t seed) {
+    ppm::Harness h(ppm::test::builtin(), "motion.constant_velocity", "{}", threads, seed);
+    begin(h.belief(), 257, some_twist());
+    for (int k = 2; k < 5; ++k) {
+      h.input<ppm::Frame>("frame", frame_at(k, 0.1 * k));
+      h.tick();
+    }
+    std::vector<double> all;
+    for (const auto& pose : h.belief().pose) all.insert(all.end(), pose.data(), pose.data() + 16);
+    return all;
+  };
+  const auto one = run(1, 7);
+  CHECK(run(2, 7) == one);
+  CHECK(run(4, 7) == one);
+  CHECK(run(1, 8) != one);
+}
+
+TEST_CASE("the new frame's motion drops the prediction of the frame before") {
+  ppm::Harness h(ppm::test::builtin(), "motion.constant_velocity");
+  begin(h.belief(), 1, some_twist());
+  h.belief().prediction[0] = std::make_shared<ppm::Prediction>();
+  h.input<ppm::Frame>("frame", frame_at(2, 0.2));
+  h.tick();
+  CHECK(h.belief().prediction[0] == nullptr);
+}
+
+TEST_CASE("motion by reference is exact without noise, noisy with it, and needs a reference") {
+  const Pose reference = ppm::se3_exp(7 * some_twist());
+  ppm::Harness exact(ppm::test::builtin(), "motion.reference_pose");
+  begin(exact.belief(), 3, some_twist());
+  exact.input<ppm::Frame>("frame", frame_at(12, 1.2, reference));
+  exact.tick();
+  for (const auto& pose : exact.belief().pose) CHECK(distance(pose, reference) < 1e-15);
+
+  ppm::Harness noisy(ppm::test::builtin(), "motion.reference_pose", "{sigma_t: 1 mm}");
+  begin(noisy.belief(), 2, some_twist());
+  noisy.input<ppm::Frame>("frame", frame_at(12, 1.2, reference));
+  noisy.tick();
+  CHECK(distance(noisy.belief().pose[0], reference) > 1e-6);
+  CHECK(distance(noisy.belief().pose[0], reference) < 0.01);
+  CHECK(distance(noisy.belief().pose[0], noisy.belief().pose[1]) > 1e-6);
+
+  noisy.input<ppm::Frame>("frame", frame_at(13, 1.3));
+  CHECK_THROWS_WITH(noisy.tick(), Catch::Matchers::Contains("frame 13") && Catch::Matchers::Contains("no reference pose"));
+}
+
+TEST_CASE("motion parameters are checked") {
+  CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 2 deg}"), ppm::ConfigError);
+  CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{sigma_r: -1}"), ppm::ConfigError);
+  CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{velocity_decay: 1.5}"), ppm::ConfigError);
+}
