@@ -130,8 +130,9 @@ std::string parse_quantity(std::string_view text, std::string_view si_unit, doub
   if (unit->si != si_unit)
     return fmt::format("'{}' is {}; {}", text, unit->name == "%" ? "a percentage" : words_for(unit->si),
                        wanted(si_unit));
-  value = number * unit->times / unit->by;
-  if (!std::isfinite(value)) return fmt::format("'{}' is too large", text);
+  const double si = number * unit->times / unit->by;
+  if (!std::isfinite(si)) return fmt::format("'{}' is too large", text);
+  value = si;
   return "";
 }
 

@@ -15,9 +15,12 @@ namespace ppm {
 /// keys.
 class ConfigBuilder final : public YAML::EventHandler {
  public:
-  explicit ConfigBuilder(std::string name) : name_(std::move(name)) { root_.place_ = {name_, 1, 1}; }
+  ConfigBuilder(const std::string& text, const std::string& name) : text_(text), name_(name) {}
 
-  Config take() { return std::move(root_); }
+  Config take() {
+    if (root_.kind_ == Config::Kind::null) root_.place_ = {name_, 1, 1};
+    return std::move(root_);
+  }
   Diagnostics& mistakes() { return mistakes_; }
   const Place& document_place() const { return document_; }
 
@@ -39,6 +42,7 @@ class ConfigBuilder final : public YAML::EventHandler {
                 const std::string& value) override {
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
+    refuse_open_quote(mark);
     add(Config::scalar(value, place(mark), tag == "!"));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -71,6 +75,15 @@ class ConfigBuilder final : public YAML::EventHandler {
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     // yaml-cpp gives "?" to a plain value and "!" to a quoted one
     if (!tag.empty() && tag != "?" && tag != "!") refuse(mark, fmt::format("tags ({}) are not supported", tag));
+  }
+  // yaml-cpp takes the end of the file for a missing closing quote.
+  void refuse_open_quote(const YAML::Mark& mark) {
+    auto at = static_cast<std::size_t>(mark.pos);
+    const char quote = at < text_.size() ? text_[at] : '\0';
+    if (quote != '"' && quote != '\'') return;
+    while (++at < text_.size() && text_[at] != quote)
+      if (quote == '"' && text_[at] == '\\') ++at;
+    if (at >= text_.size()) refuse(mark, "this quote is never closed");
   }
   void start(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, Config node) {
     refuse_anchor(mark, anchor);
@@ -112,7 +125,8 @@ class ConfigBuilder final : public YAML::EventHandler {
     return {key.text_, key.place_, why.empty()};
   }
 
-  std::string name_;
+  const std::string& text_;
+  const std::string& name_;
   Place document_;
   Config root_;
   std::vector<Level> levels_;
@@ -140,7 +154,7 @@ Config parse_yaml(const std::string& text, const std::string& name) {
   refuse_tabs(text, name, mistakes);
   if (!mistakes.empty()) throw ConfigError(std::move(mistakes));
 
-  ConfigBuilder builder(name), second(name);
+  ConfigBuilder builder(text, name), second(text, name);
   std::optional<Diagnostic> syntax;
   try {
     std::istringstream in(text);
