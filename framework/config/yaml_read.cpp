@@ -81,9 +81,15 @@ class ConfigBuilder final : public YAML::EventHandler {
     auto at = static_cast<std::size_t>(mark.pos);
     const char quote = at < text_.size() ? text_[at] : '\0';
     if (quote != '"' && quote != '\'') return;
-    while (++at < text_.size() && text_[at] != quote)
-      if (quote == '"' && text_[at] == '\\') ++at;
-    if (at >= text_.size()) refuse(mark, "this quote is never closed");
+    for (++at; at < text_.size(); ++at) {
+      const bool pair = quote == '"' ? text_[at] == '\\' : text_.compare(at, 2, "''") == 0;
+      if (pair) {
+        ++at;
+      } else if (text_[at] == quote) {
+        return;
+      }
+    }
+    refuse(mark, "this quote is never closed");
   }
   void start(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, Config node) {
     refuse_anchor(mark, anchor);
