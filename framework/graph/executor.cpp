@@ -107,7 +107,7 @@ std::size_t Executor::tick_loop(std::size_t first, const std::function<bool(cons
       break;
     }
     auto* module = dynamic_cast<ParticleModule*>(node.module.get());
-    if (!module || loop.feeds(node)) break;
+    if (!module || loop.feeds(node) || (next > first && module->starts_loop())) break;
     take_outputs(node);
     loop.add(node, *module, contexts_[next]);
     if (module->ends_loop()) {
