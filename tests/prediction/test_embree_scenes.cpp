@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "framework/core/error.hpp"
 #include "modules/prediction/embree_scenes.hpp"
 #include "tests/support/mesh_map.hpp"
 
