@@ -9,7 +9,8 @@ namespace ppm {
 
 namespace {
 
-std::string number_text(double value) {
+template <class Real>
+std::string number_text(Real value) {
   PPM_CHECK(std::isfinite(value), "a parameter's value is not finite");
   return fmt::format("{}", value);
 }
@@ -91,6 +92,14 @@ std::string ParamSpec::read_real(const Config& value, double& out) const {
   return "";
 }
 
+std::string ParamSpec::assign_real(const Config& value) {
+  if (auto* target = std::get_if<double*>(&target_)) return read_real(value, **target);
+  double number = 0;
+  auto wrong = read_real(value, number);
+  if (wrong.empty()) *std::get<float*>(target_) = static_cast<float>(number);
+  return wrong;
+}
+
 std::string ParamSpec::assign_boolean(const Config& value) {
   if (auto wrong = refuse_non_plain(value, "true or false"); !wrong.empty()) return wrong;
   if (value.text() != "true" && value.text() != "false")
@@ -168,7 +177,7 @@ std::optional<Diagnostic> ParamSpec::assign(const Config& value) {
       wrong = assign_integer(value);
       break;
     case Type::real:
-      wrong = read_real(value, *std::get<double*>(target_));
+      wrong = assign_real(value);
       break;
     case Type::vector3:
       return assign_vector(value);
@@ -196,6 +205,7 @@ Config ParamSpec::value(const Place& place) const {
     Config operator()(const int* v) const { return plain(fmt::format("{}", *v)); }
     Config operator()(const std::int64_t* v) const { return plain(fmt::format("{}", *v)); }
     Config operator()(const double* v) const { return plain(number_text(*v)); }
+    Config operator()(const float* v) const { return plain(number_text(*v)); }
     Config operator()(const std::string* v) const { return plain(*v); }
     Config operator()(const std::filesystem::path* v) const { return plain(v->string()); }
     Config operator()(const Eigen::Vector3d* v) const {

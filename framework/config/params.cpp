@@ -15,6 +15,9 @@ ParamSpec::Type type_of(const int*) {
 ParamSpec::Type type_of(const std::int64_t*) {
   return ParamSpec::Type::integer;
 }
+ParamSpec::Type type_of(const float*) {
+  return ParamSpec::Type::real;
+}
 ParamSpec::Type type_of(const double*) {
   return ParamSpec::Type::real;
 }

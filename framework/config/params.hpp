@@ -48,10 +48,11 @@ class ParamSpec {
 
  private:
   friend class Params;
-  using Target = std::variant<std::monostate, bool*, int*, std::int64_t*, double*, std::string*, std::filesystem::path*,
+  using Target = std::variant<std::monostate, bool*, int*, std::int64_t*, double*, float*, std::string*, std::filesystem::path*,
                               Eigen::Vector3d*>;
   /// Sets the bound value, or says what is wrong and where; the value is unchanged then.
   std::optional<Diagnostic> assign(const Config& value);
+  std::string assign_real(const Config& value);
   std::string assign_boolean(const Config& value);
   std::string assign_integer(const Config& value);
   std::string assign_text(const Config& value);
@@ -78,7 +79,7 @@ class ParamSpec {
 /// values.
 class Params {
  public:
-  /// T: bool, int, std::int64_t, double, std::string, std::filesystem::path, Eigen::Vector3d.
+  /// T: bool, int, std::int64_t, double, float, std::string, std::filesystem::path, Eigen::Vector3d.
   template <class T>
   ParamSpec& add(std::string name, T& member) {
     return declare(std::move(name), ParamSpec::Target(&member));

@@ -9,7 +9,7 @@
 #include "framework/core/error.hpp"
 #include "modules/maps/ppm/ppm_map.hpp"
 #include "modules/maps/ppm/texel_sample.hpp"
-#include "modules/prediction/visible_chunks.hpp"
+#include "modules/maps/ppm/visible_chunks.hpp"
 
 namespace ppm {
 namespace {

@@ -1,4 +1,4 @@
-#include "modules/prediction/visible_chunks.hpp"
+#include "modules/maps/ppm/visible_chunks.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,49 @@
+#include "modules/maps/ppm/face_votes.hpp"
+
+#include <algorithm>
+
+namespace ppm {
+
+std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes) {
+  struct Votes {
+    std::uint16_t seen = 0, hits = 0, through = 0;
+  };
+  std::vector<std::vector<Votes>> votes(map.table().size());  // by chunk and face; empty for chunks that no ray met
+  const Prediction& seen = *view.prediction;
+  for (std::size_t p = 0; p < classes.size(); ++p) {
+    if (!seen.hit(p)) continue;
+    auto& chunk = votes[seen.chunk[p]];
+    if (chunk.empty()) chunk.resize(map.table()[seen.chunk[p]].geometry->face.size());
+    Votes& v = chunk[seen.face[p]];
+    v.seen = 1;
+    v.hits += (classes[p] & kOwnHit) != 0;
+    v.through += (classes[p] & kBehind) != 0;
+  }
+  std::vector<FaceTally> tallies;
+  for (std::uint32_t c = 0; c < votes.size(); ++c)
+    for (std::uint32_t f = 0; f < votes[c].size(); ++f)
+      if (votes[c][f].seen) tallies.push_back({{c, f}, votes[c][f].hits, votes[c][f].through});
+  return tallies;
+}
+
+std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const VoteSettings& settings, PpmEdit& edit) {
+  std::vector<FaceRef> lost;
+  for (const auto& t : tallies) {
+    if (t.hits == 0 && t.through == 0) continue;
+    FaceEvidence& e = edit.texels(t.face.chunk).evidence[t.face.face];
+    e.hits = static_cast<std::uint16_t>(std::min(e.hits + t.hits, settings.hits_most));
+    e.through = static_cast<std::uint16_t>(std::min(e.through + t.through, 65535));
+    if (static_cast<float>(e.through) > settings.through_per_hit * static_cast<float>(e.hits) + static_cast<float>(settings.through_free))
+      lost.push_back(t.face);
+  }
+  return lost;
+}
+
+void mark_pixels(const UpdateView& view, const std::vector<FaceRef>& faces, std::vector<std::uint8_t>& marked) {
+  const Prediction& seen = *view.prediction;
+  marked.assign(view.depth.size(), 0);
+  for (std::size_t p = 0; p < marked.size(); ++p)
+    marked[p] = seen.hit(p) && std::binary_search(faces.begin(), faces.end(), FaceRef{seen.chunk[p], seen.face[p]});
+}
+
+}  // namespace ppm

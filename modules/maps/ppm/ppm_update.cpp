@@ -1,0 +1,99 @@
+#include "modules/maps/ppm/ppm_update.hpp"
+
+#include <algorithm>
+
+namespace ppm {
+namespace {
+
+/// Hands new faces to the edit session, with texels that have seen this frame.
+class FaceWriter {
+ public:
+  FaceWriter(const UpdateView& view, const TexelSettings& texels, Boundary& boundary, PpmEdit& edit)
+      : view_(view), texels_(texels), boundary_(boundary), edit_(edit), used_(boundary.vertex.size(), 0) {}
+
+  void write(const RimFace& face) {
+    std::array<std::uint32_t, 3> ids;
+    std::array<Eigen::Vector3f, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ids[k] = id_of(face[k]);
+      corner[k] = boundary_.vertex[face[k]].point;
+    }
+    const PpmSettings& map = edit_.map().settings();
+    const auto n = edit_.map().divisions_for(corner[0], corner[1], corner[2]);
+    mean_.assign(texel_count(n), 0.0f);
+    variance_.assign(texel_count(n), static_cast<float>(map.prior_sigma_m * map.prior_sigma_m));
+    gather_face(view_, texels_, corner, n, mean_, variance_);
+    edit_.add_face(ids, static_cast<std::uint8_t>(n), mean_, variance_);
+  }
+
+ private:
+  std::uint32_t id_of(std::uint32_t number) {
+    RimVertex& v = boundary_.vertex[number];
+    if (v.id == RimVertex::kNew)
+      v.id = edit_.add_vertex(v.position);
+    else if (!used_[number])
+      edit_.use_vertex(v.id, v.position);
+    used_[number] = 1;
+    return v.id;
+  }
+
+  const UpdateView& view_;
+  const TexelSettings& texels_;
+  Boundary& boundary_;
+  PpmEdit& edit_;
+  std::vector<std::uint8_t> used_;
+  std::vector<float> mean_, variance_;
+};
+
+/// Pixels where surface may be made in this frame.
+std::vector<std::uint8_t> wanted_pixels(const UpdateView& view, const std::vector<std::uint8_t>& classes, int open_radius) {
+  std::vector<std::uint8_t> wanted(classes.size()), unknown(classes.size());
+  for (std::size_t p = 0; p < classes.size(); ++p) {
+    wanted[p] = (classes[p] & kWanted) != 0;
+    unknown[p] = !view.measured(p);
+  }
+  if (open_radius > 0) open_mask(view.cols(), view.rows(), open_radius, unknown, wanted);
+  return wanted;
+}
+
+}  // namespace
+
+void UpdateSettings::share_gate() { texels.gate = surface.triangle.gate = holes.gate = gate; }
+
+std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame, const Prediction& prediction,
+                                         const UpdateSettings& settings, std::int64_t frame_number, UpdateCounts* counts) {
+  UpdateView view;
+  view.build(frame, prediction);
+  std::vector<std::uint8_t> classes;
+  classify_pixels(view, settings.gate, settings.classify_sigmas, {}, classes);
+
+  PpmEdit edit(std::move(map));
+  const auto tallies = tally_faces(edit.map(), view, classes);
+  std::vector<FaceRef> removed;
+  if (settings.delete_faces) removed = cast_votes(tallies, settings.votes, edit);
+  std::vector<FaceRef> kept;
+  for (const auto& t : tallies)
+    if (!std::binary_search(removed.begin(), removed.end(), t.face)) kept.push_back(t.face);
+  if (!removed.empty()) {
+    for (const auto& f : removed) edit.remove_face(f.chunk, f.face);
+    std::vector<std::uint8_t> gone;
+    mark_pixels(view, removed, gone);
+    classify_pixels(view, settings.gate, settings.classify_sigmas, gone, classes);
+  }
+  update_texels(view, classes, kept, settings.texels, edit);
+
+  Boundary boundary;
+  boundary.build(edit.map(), view, removed);
+  std::vector<RimFace> faces;
+  const bool thin = settings.thin_every > 0 && frame_number % settings.thin_every == 0;
+  const auto wanted = wanted_pixels(view, classes, thin ? 0 : settings.open_radius);
+  make_surface(view, classes, wanted, settings.surface, boundary, faces);
+  const auto made = faces.size();
+  if (settings.fill) fill_holes(view, settings.holes, boundary, faces);
+  FaceWriter writer(view, settings.texels, boundary, edit);
+  for (const auto& f : faces) writer.write(f);
+  if (counts) *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made, removed.size()};
+  return edit.commit();
+}
+
+}  // namespace ppm

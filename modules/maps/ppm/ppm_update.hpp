@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "framework/slam/frame.hpp"
+#include "framework/slam/prediction.hpp"
+#include "modules/maps/ppm/face_votes.hpp"
+#include "modules/maps/ppm/hole_fill.hpp"
+#include "modules/maps/ppm/new_surface.hpp"
+#include "modules/maps/ppm/texel_update.hpp"
+
+namespace ppm {
+
+/// How a frame changes a map; see the parameters of map_update.ppm_bayes.
+struct UpdateSettings {
+  SurfaceGate gate;              ///< copied into the parts below by whoever sets it
+  float classify_sigmas = 4;
+  int open_radius = 2;           ///< px, of the opening that leaves thin strips of wanted pixels for later
+  int thin_every = 5;            ///< frames: so often thin strips are let through
+  bool delete_faces = true;
+  VoteSettings votes;
+  TexelSettings texels;
+  NewSurfaceSettings surface;
+  bool fill = true;
+  HoleSettings holes;
+
+  /// Gives every part the same gate.
+  void share_gate();
+};
+
+/// What an update did.
+struct UpdateCounts {
+  std::size_t wanted_pixels = 0, new_faces = 0, filled_faces = 0, removed_faces = 0;
+};
+
+/// The map after one frame: pixels are classified against the prediction, faces voted on and removed, texels updated, new surface
+/// made and stitched on, small holes filled. A pure function of its arguments: the same bytes each time.
+/// map: moved in; where it is the only handle its memory is reused. prediction: of this map at the frame's pose.
+/// frame_number: of the run, from 0.
+std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame, const Prediction& prediction,
+                                         const UpdateSettings& settings, std::int64_t frame_number, UpdateCounts* counts = nullptr);
+
+}  // namespace ppm

@@ -1,0 +1,112 @@
+#include "modules/maps/ppm/texel_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ppm {
+namespace {
+
+/// A face's plane n . x = offset as the gather form needs it.
+struct FacePlane {
+  Eigen::Vector3f normal;
+  float offset;
+  float texel_area;  // m^2, that one node stands for
+};
+
+/// The residuals of the four pixels around (x, y), weighted bilinearly; false where less than half of the weight is left.
+bool interpolate(const UpdateView& view, const FacePlane& plane, float x, float y, float mean, float limit, float& offset) {
+  const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, view.cols() - 2);
+  const int y0 = std::clamp(static_cast<int>(std::floor(y)), 0, view.rows() - 2);
+  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+  const std::array<float, 4> weight{(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy};
+  float sum = 0, total = 0;
+  for (int k = 0; k < 4; ++k) {
+    const float r = plane.normal.dot(view.point[view.at(x0 + (k & 1), y0 + (k >> 1))]) - plane.offset;
+    if (!(std::abs(r - mean) <= limit)) continue;  // also where nothing was measured
+    sum += weight[static_cast<std::size_t>(k)] * r;
+    total += weight[static_cast<std::size_t>(k)];
+  }
+  if (total < 0.5f) return false;
+  offset = sum / total;
+  return true;
+}
+
+void gather_node(const UpdateView& view, const TexelSettings& settings, const FacePlane& plane, const Eigen::Vector3f& node,
+                 float& mean, float& variance) {
+  const Eigen::Vector3f image = view.project(node);
+  if (!(image.z() > 0) || image.x() < 0 || image.y() < 0 || image.x() > static_cast<float>(view.cols() - 1) ||
+      image.y() > static_cast<float>(view.rows() - 1))
+    return;
+  const auto nearest = view.at(static_cast<int>(image.x() + 0.5f), static_cast<int>(image.y() + 0.5f));
+  if (!view.measured(nearest)) return;
+  const float cosine = UpdateView::facing(plane.normal, node);
+  const float sigma = view.sigma[nearest];
+  const float limit = settings.gate_sigmas * settings.gate.spread(sigma, cosine, variance);
+  float offset = 0;
+  if (!interpolate(view, plane, image.x(), image.y(), mean, limit, offset)) return;
+  const float pixel = image.z() * view.inv_fx;
+  const float footprint = pixel * pixel / std::max(cosine, settings.gate.least_cosine);
+  const float share = std::min(1.0f, plane.texel_area / footprint);
+  fuse(mean, variance, offset, variance_along_normal(sigma, cosine, settings.lateral_px * pixel) / share);
+}
+
+void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::size_t p, PpmEdit& edit) {
+  const Prediction& seen = *view.prediction;
+  const auto& geometry = *edit.map().table()[seen.chunk[p]].geometry;
+  const auto f = seen.face[p];
+  const Eigen::Vector3f normal = geometry.face_normal(f);
+  const float cosine = UpdateView::facing(normal, view.point[p]);
+  if (cosine <= 0) return;
+  const auto t = geometry.first_texel[f] + nearest_texel(geometry.divisions[f], seen.bary[2 * p], seen.bary[2 * p + 1]);
+  Texels& texels = edit.texels(seen.chunk[p]);
+  const float offset = normal.dot(view.point[p] - view.relative(geometry.position[geometry.face[f][0]]));
+  const float limit = settings.gate_sigmas * settings.gate.spread(view.sigma[p], cosine, texels.variance[t]);
+  if (std::abs(offset - texels.mean[t]) > limit) return;
+  const float pixel = view.depth[p] * std::abs(view.inv_fx);
+  fuse(texels.mean[t], texels.variance[t], offset,
+       variance_along_normal(view.sigma[p], cosine, settings.lateral_px * pixel));
+}
+
+}  // namespace
+
+float variance_along_normal(float sigma, float cosine, float lateral) {
+  const float c2 = cosine * cosine;
+  return sigma * sigma * c2 + lateral * lateral * (1 - c2);
+}
+
+void gather_face(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
+                 std::uint32_t divisions, std::span<float> mean, std::span<float> variance) {
+  const Eigen::Vector3f e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
+  const Eigen::Vector3f cross = e1.cross(e2);
+  const float twice_area = cross.norm();
+  const auto n = static_cast<float>(divisions);
+  const FacePlane plane{cross / twice_area, cross.dot(corner[0]) / twice_area, twice_area / (n * n)};
+  if (plane.offset >= 0) return;  // seen from behind
+  std::size_t t = 0;
+  for (std::uint32_t i = 0; i <= divisions; ++i)
+    for (std::uint32_t j = 0; i + j <= divisions; ++j, ++t) {
+      const Eigen::Vector3f node = corner[0] + e1 * (static_cast<float>(i) / n) + e2 * (static_cast<float>(j) / n);
+      gather_node(view, settings, plane, node, mean[t], variance[t]);
+    }
+}
+
+void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<FaceRef>& faces,
+                   const TexelSettings& settings, PpmEdit& edit) {
+  if (settings.form == TexelForm::scatter) {
+    for (std::size_t p = 0; p < classes.size(); ++p)
+      if (classes[p] & kOwnHit) scatter_pixel(view, settings, p, edit);
+    return;
+  }
+  for (const auto& [c, f] : faces) {
+    const auto& geometry = *edit.map().table()[c].geometry;
+    const auto& [i, j, k] = geometry.face[f];
+    Texels& texels = edit.texels(c);
+    const auto first = geometry.first_texel[f];
+    const auto count = texel_count(geometry.divisions[f]);
+    gather_face(view, settings,
+                {view.relative(geometry.position[i]), view.relative(geometry.position[j]), view.relative(geometry.position[k])},
+                geometry.divisions[f], {&texels.mean[first], count}, {&texels.variance[first], count});
+  }
+}
+
+}  // namespace ppm

@@ -1,0 +1,47 @@
+#include "modules/maps/ppm/update_view.hpp"
+
+#include "framework/core/error.hpp"
+
+namespace ppm {
+namespace {
+
+void set_camera(UpdateView& view, const Camera& camera, const Pose& T_map_camera) {
+  view.camera = camera;
+  view.fx = static_cast<float>(camera.fx);
+  view.fy = static_cast<float>(camera.fy);
+  view.cx = static_cast<float>(camera.cx);
+  view.cy = static_cast<float>(camera.cy);
+  view.inv_fx = static_cast<float>(1.0 / camera.fx);
+  view.inv_fy = static_cast<float>(1.0 / camera.fy);
+  view.axes = T_map_camera.linear().cast<float>();
+  view.centre = T_map_camera.translation();
+}
+
+}  // namespace
+
+void UpdateView::build(const Frame& frame, const Prediction& seen) {
+  PPM_CHECK(seen.camera == frame.camera.decimated(seen.stride), "the prediction is not one of frame {}'s camera", frame.index);
+  set_camera(*this, seen.camera, seen.T_map_camera);
+  prediction = &seen;
+  const auto pixels = static_cast<std::size_t>(camera.pixels());
+  depth.resize(pixels);
+  sigma.resize(pixels);
+  point.resize(pixels);
+  normal.resize(pixels);
+  offset.resize(pixels);
+  for (int y = 0; y < camera.rows; ++y) {
+    const auto row = static_cast<std::size_t>(y * seen.stride) * static_cast<std::size_t>(frame.camera.cols);
+    for (int x = 0; x < camera.cols; ++x) {
+      const auto p = at(x, y);
+      const auto source = row + static_cast<std::size_t>(x * seen.stride);
+      const Eigen::Vector3f r = ray(static_cast<float>(x), static_cast<float>(y));
+      depth[p] = frame.depth[source];
+      sigma[p] = frame.sigma[source];
+      point[p] = depth[p] * r;
+      normal[p] = Eigen::Vector3f(seen.normal[3 * p], seen.normal[3 * p + 1], seen.normal[3 * p + 2]);
+      offset[p] = seen.hit(p) ? seen.range[p] * normal[p].dot(r.normalized()) + seen.mean[p] : 0.0f;
+    }
+  }
+}
+
+}  // namespace ppm
