@@ -1,0 +1,63 @@
+#include "framework/graph/registry.hpp"
+#include "framework/slam/frame.hpp"
+#include "framework/slam/particle_set.hpp"
+#include "modules/maps/ppm/ppm_map.hpp"
+
+namespace ppm {
+namespace {
+
+enum class Start { reference, identity };
+
+/// Makes the belief: particles with equal weights at one pose, sharing one empty mesh map; the first frame is on every path.
+/// Runs in the first frame (`when: {until_frame: 0}`); it starts over wherever it runs.
+/// throws  DataError where the start is the reference and the frame has none
+class PpmEmpty final : public Module {
+ public:
+  In<Frame> frame{this, "frame", "The first frame: its stamp, and its reference pose where the map starts there."};
+  InOut<Belief> belief{this, {{}, {"belief", "map.ppm"}, {"prediction"}}};
+
+  PpmEmpty() {
+    params_.add("particles", particles_).range(1, 1'000'000).doc("Number of particles.");
+    params_.add_choice("start", start_, {{"reference", Start::reference}, {"identity", Start::identity}})
+        .doc("The camera's first pose in the map frame: the frame's reference pose, so that map and reference share one frame, "
+             "or identity.");
+    params_.add("cell_size", settings_.cell_size_m)
+        .unit("m")
+        .above(0)
+        .doc("Edge of the cubic cells that the map is cut into. Particles share what they did not change cell by cell.");
+    params_.add("texel_size", settings_.texel_size_m)
+        .unit("m")
+        .above(0)
+        .doc("Distance between texels on a face, at most: the level of detail below that of the faces.");
+    params_.add("prior_sigma", settings_.prior_sigma_m)
+        .unit("m")
+        .above(0)
+        .doc("Standard deviation of the offset between a face and the true surface before it is observed.");
+  }
+
+  void tick(Context&) override {
+    const auto first = frame.get();
+    Pose T_map_camera = Pose::Identity();
+    if (start_ == Start::reference) {
+      if (!first->T_world_camera_ref)
+        throw DataError("the source", first->index, "has no reference pose to start the map at; set `start: identity`");
+      T_map_camera = *first->T_world_camera_ref;
+    }
+    auto& particles = *belief;
+    particles.init(static_cast<std::size_t>(particles_), T_map_camera, std::make_shared<const PpmMap>(settings_));
+    for (std::size_t i = 0; i < particles.size(); ++i) particles.extend(i, {first->index, first->stamp_s, T_map_camera});
+  }
+
+ private:
+  int particles_ = 100;
+  Start start_ = Start::reference;
+  PpmSettings settings_;
+};
+
+}  // namespace
+}  // namespace ppm
+
+PPM_MODULES(r) {
+  r.add<ppm::PpmEmpty>("map.ppm_empty", "Starts the belief: particles at one pose that share one empty probabilistic mesh.",
+                       "paper, sections 3 and 4");
+}
