@@ -14,6 +14,11 @@ namespace ppm {
 struct ToyNumber {
   std::int64_t value = 0;
 };
+struct ToyWord {};
+template <>
+struct PortType<ToyWord> {
+  static constexpr std::string_view name = "word";
+};
 template <>
 struct PortType<ToyNumber> {
   static constexpr std::string_view name = "number";
@@ -50,6 +55,13 @@ class ToySource : public Module {
 
  private:
   std::int64_t count_ = 3;
+};
+
+/// Has an output of another type.
+class ToyWordSource : public Module {
+ public:
+  Out<ToyWord> word{this, "word", "A word."};
+  void tick(Context& context) override { context.end_of_stream(); }
 };
 
 /// Makes the particles.
@@ -194,6 +206,7 @@ class ToyThrow : public ParticleModule {
 inline Registry toy_registry() {
   Registry r;
   r.add<ToySource>("source.toy", "Counts.", "None.");
+  r.add<ToyWordSource>("source.toy_word", "Makes words.", "None.");
   r.add<ToyInit>("map.toy", "Makes particles.", "None.");
   r.add<ToyOtherMap>("map.other", "Makes another kind of map.", "None.");
   r.add<ToyWalk>("motion.toy_walk", "Moves particles.", "None.");
