@@ -61,5 +61,7 @@ class GraphBuilder {
 
 /// "; did you mean 'x'?" where a candidate is like the word, else "".
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
+/// The kind of a value in words: "a list".
+std::string a_kind(const Config& value);
 
 }  // namespace ppm

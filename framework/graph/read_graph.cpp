@@ -25,8 +25,8 @@ std::string known_modules(const std::string& name, const Registry& registry) {
     if (category(known) == category(name)) same.push_back(known);
     if (categories.empty() || categories.back() != category(known)) categories.push_back(category(known));
   }
-  if (!same.empty()) return fmt::format("; modules of category '{}': {}", category(name), join(same));
-  return fmt::format("; categories: {}", join(categories));
+  if (!same.empty()) return fmt::format(" (category '{}' has {})", category(name), join(same));
+  return fmt::format(" (categories: {})", join(categories));
 }
 
 }  // namespace
@@ -36,10 +36,14 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return guess.empty() ? "" : fmt::format("; did you mean '{}'?", guess);
 }
 
+std::string a_kind(const Config& value) {
+  if (value.kind() == Config::Kind::null) return kind_name(value.kind());
+  return fmt::format("a {}", kind_name(value.kind()));
+}
+
 Graph GraphBuilder::build(Config file, const std::vector<Override>& overrides) {
   if (file.kind() != Config::Kind::map) {
-    throw ConfigError(file.place(),
-                      fmt::format("a graph file is a map with name and nodes, not {}", kind_name(file.kind())));
+    throw ConfigError(file.place(), fmt::format("a graph file is a map with name and nodes, not {}", a_kind(file)));
   }
   override_tree(file, overrides);
   read_file(file);
@@ -58,7 +62,7 @@ void GraphBuilder::read_file(const Config& file) {
   if (auto* seed = file.find("seed")) {
     std::int64_t value = 0;
     Params params;
-    params.add("seed", value).range(0, static_cast<double>(std::numeric_limits<std::int64_t>::max())).doc("Seed.");
+    params.add("seed", value).range(0, std::numeric_limits<double>::infinity()).doc("Seed.");
     Config only;
     only.set("seed", seed->place(), *seed);
     params.parse(&only, "the graph", file.place(), mistakes_);
@@ -75,7 +79,7 @@ void GraphBuilder::read_file(const Config& file) {
 
 void GraphBuilder::read_plugins(const Config& list) {
   if (list.kind() != Config::Kind::sequence) {
-    report(list.place(), fmt::format("plugins is a sequence of libraries, not {}", kind_name(list.kind())));
+    report(list.place(), fmt::format("plugins is a list of libraries, not {}", a_kind(list)));
   }
   for (const auto& item : list.items()) {
     if (item.kind() != Config::Kind::scalar) report(item.place(), "a plug-in is the path of a library");
@@ -84,7 +88,7 @@ void GraphBuilder::read_plugins(const Config& list) {
 
 void GraphBuilder::read_node(const Config& tree) {
   if (tree.kind() != Config::Kind::map) {
-    report(tree.place(), fmt::format("a node is a map such as {{name: x, module: y}}, not {}", kind_name(tree.kind())));
+    report(tree.place(), fmt::format("a node is a map such as {{name: x, module: y}}, not {}", a_kind(tree)));
     return;
   }
   check_keys(tree, "a node", {"name", "module", "in", "when", "params"});
@@ -147,7 +151,7 @@ const Config* GraphBuilder::required(const Config& map, const std::string& owner
   if (!value) {
     report(map.place(), fmt::format("{} needs the key '{}'", owner, key));
   } else if (value->kind() != kind) {
-    report(value->place(), fmt::format("'{}' must be {}, not {}", key, kind_name(kind), kind_name(value->kind())));
+    report(value->place(), fmt::format("'{}' must be a {}, not {}", key, kind_name(kind), a_kind(*value)));
     return nullptr;
   }
   return value;

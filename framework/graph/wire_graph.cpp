@@ -59,7 +59,7 @@ void GraphBuilder::wire() {
 void GraphBuilder::wire_node(std::size_t i) {
   const Config* in = written_[i].tree->find("in");
   if (in && in->kind() != Config::Kind::map) {
-    report(in->place(), fmt::format("'in' is a map such as {{frame: camera.frame}}, not {}", kind_name(in->kind())));
+    report(in->place(), fmt::format("'in' is a map such as {{frame: camera.frame}}, not {}", a_kind(*in)));
     return;
   }
   if (in) {
