@@ -13,8 +13,8 @@ struct FrameConditioning {
   /// Standard deviation of a depth, m. Source: Nguyen, Izadi, Lovell, "Modeling Kinect sensor noise for improved 3D
   /// reconstruction and tracking", 3DIMPVT 2012 (axial noise).
   double sigma(double depth_m) const;
-  /// Each stride-th pixel of each stride-th row, from pixel (0, 0) on; depth that is not finite or out of range becomes NaN;
-  /// sigma is filled where the source left it empty, and NaN where depth is.
+  /// Each stride-th pixel of each stride-th row, from pixel (0, 0) on; depth that is not finite or out of range becomes
+  /// NaN; sigma is filled where the source left it empty, and NaN where depth is.
   Frame apply(const Frame& image, int stride) const;
 };
 

@@ -12,10 +12,14 @@ namespace {
 std::string_view ordinal_ending(std::int64_t n) {
   if (n % 100 >= 11 && n % 100 <= 13) return "th";
   switch (n % 10) {
-    case 1: return "st";
-    case 2: return "nd";
-    case 3: return "rd";
-    default: return "th";
+    case 1:
+      return "st";
+    case 2:
+      return "nd";
+    case 3:
+      return "rd";
+    default:
+      return "th";
   }
 }
 
@@ -37,7 +41,8 @@ FrameSelection select_frames(const std::string& name, std::int64_t images, std::
   if (first >= images) throw DataError(name, fmt::format("'first' is {}, but the last image is {}", first, images - 1));
   if (last >= images) throw DataError(name, fmt::format("'last' is {}, but the last image is {}", last, images - 1));
   if (last == -1) last = images - 1;
-  if (last < first) throw DataError(name, fmt::format("'last' ({}) is before 'first' ({}): no image is selected", last, first));
+  if (last < first)
+    throw DataError(name, fmt::format("'last' ({}) is before 'first' ({}): no image is selected", last, first));
   auto is_held_out = [=](std::int64_t i) { return holdout_every > 0 && i % holdout_every == holdout_every / 2; };
   FrameSelection out;
   for (auto i = first; i <= last; ++i)
@@ -45,8 +50,8 @@ FrameSelection select_frames(const std::string& name, std::int64_t images, std::
   for (auto i = first; i <= last; i += stride)
     if (!is_held_out(i)) out.mapped.push_back(i);
   if (out.mapped.empty())
-    throw DataError(name, fmt::format("every image from {} to {} in steps of {} is held out: none is left to map", first, last,
-                                      stride));
+    throw DataError(name, fmt::format("every image from {} to {} in steps of {} is held out: none is left to map",
+                                      first, last, stride));
   return out;
 }
 

@@ -13,7 +13,8 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr double kRotationTolerance = 1e-2;
 
 bool is_rotation(const Eigen::Matrix3d& R) {
-  return R.determinant() > 0 && (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kRotationTolerance;
+  return R.determinant() > 0 &&
+         (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kRotationTolerance;
 }
 
 }  // namespace
@@ -35,8 +36,9 @@ void FrameSource::declare_selection() {
         if (parse_holdout(holdout_) >= 0) return std::string();
         return fmt::format("'{}' is neither 'none' nor of the form 'every 10th' (from 'every 2nd' on)", holdout_);
       })
-      .doc("Images kept from the map, to test it on: 'none', or 'every 10th': those with index % 10 == 5 in first .. last, "
-           "whatever the stride.");
+      .doc(
+          "Images kept from the map, to test it on: 'none', or 'every 10th': those with index % 10 == 5 in "
+          "first .. last, whatever the stride.");
   params_.add("min_range", conditioning_.min_range_m).unit("m").range(0, kNoLimit).doc("Nearer depths are dropped.");
   params_.add("max_range", conditioning_.max_range_m).unit("m").above(0).doc("Farther depths are dropped.");
 }
@@ -45,8 +47,9 @@ void FrameSource::declare_noise() {
   params_.add("sigma_floor", conditioning_.sigma_floor)
       .unit("m")
       .above(0)
-      .doc("Depth noise of sensors that give none with the image: sigma(z) = sigma_floor + sigma_quadratic * "
-           "(z - sigma_near)^2 (Nguyen, Izadi, Lovell, 3DIMPVT 2012).");
+      .doc(
+          "Depth noise of sensors that give none with the image: sigma(z) = sigma_floor + sigma_quadratic * "
+          "(z - sigma_near)^2 (Nguyen, Izadi, Lovell, 3DIMPVT 2012).");
   params_.add("sigma_quadratic", conditioning_.sigma_quadratic)
       .range(0, kNoLimit)
       .doc("Growth of the depth noise with the square of the distance, 1/m; see sigma_floor.");
@@ -71,7 +74,8 @@ void FrameSource::open_for_evaluation() {
 
 void FrameSource::prefetch() {
   if (next_ == selection_.mapped.size()) return;
-  prefetched_ = std::async(std::launch::async, [this, index = selection_.mapped[next_]] { return load(index, pixel_stride_); });
+  prefetched_ =
+      std::async(std::launch::async, [this, index = selection_.mapped[next_]] { return load(index, pixel_stride_); });
 }
 
 void FrameSource::tick(Context& context) {
@@ -81,15 +85,18 @@ void FrameSource::tick(Context& context) {
   }
   auto next = std::make_shared<const Frame>(prefetched_.get());
   if (next_ > 0 && !(next->stamp_s > last_stamp_s_))
-    throw DataError(sequence_->name(), next->index,
-                    fmt::format("its stamp, {} s, is not later than {} s of the image before", next->stamp_s, last_stamp_s_));
+    throw DataError(
+        sequence_->name(), next->index,
+        fmt::format("its stamp, {} s, is not later than {} s of the image before", next->stamp_s, last_stamp_s_));
   last_stamp_s_ = next->stamp_s;
   ++next_;
   prefetch();
   frame.set(std::move(next));
 }
 
-Frame FrameSource::full_frame(std::int64_t index) const { return load(index, 1); }
+Frame FrameSource::full_frame(std::int64_t index) const {
+  return load(index, 1);
+}
 
 std::vector<StampedPose> FrameSource::reference() const {
   PPM_CHECK(sequence_, "the source is not open");

@@ -15,9 +15,9 @@
 
 namespace ppm {
 
-/// A sequence of images: the base of every `source.*`. A source opens a FrameSequence; selection, holding out, decimation,
-/// range limits, noise model and prefetch of the next frame are done here, the same for all. What goes wrong with an image
-/// is thrown by the tick whose image it is.
+/// A sequence of images: the base of every `source.*`. A source opens a FrameSequence; selection, holding out,
+/// decimation, range limits, noise model and prefetch of the next frame are done here, the same for all. What goes
+/// wrong with an image is thrown by the tick whose image it is.
 class FrameSource : public Module {
  public:
   Out<Frame> frame{this, "frame", "The next image that is not held out; each is later than the one before."};

@@ -6,8 +6,9 @@
 
 namespace ppm {
 
-/// Base of modules that change maps as a pure function of (map, pose, prediction): particles that agree in all three (copies
-/// of one ancestor after resampling) are computed once, by the lowest of them, and share the result. Draws no random numbers.
+/// Base of modules that change maps as a pure function of (map, pose, prediction): particles that agree in all three
+/// (copies of one ancestor after resampling) are computed once, by the lowest of them, and share the result. Draws no
+/// random numbers.
 class MapEditor : public Module {
  public:
   InOut<Belief> belief;
@@ -15,8 +16,8 @@ class MapEditor : public Module {
   /// Work shared by all maps before they are edited. Called from one thread.
   virtual void before(Context&) {}
   /// The map of particle i after the edit. Reads no other particle's data. May return the map it was given (no change).
-  /// `map` is the particle's handle, moved in, while the belief's map column is empty: where no other particle has the map (and
-  /// no sink keeps a snapshot), it is the only handle and its memory may be reused. Called from any worker.
+  /// `map` is the particle's handle, moved in, while the belief's map column is empty: where no other particle has the
+  /// map (and no sink keeps a snapshot), it is the only handle and its memory may be reused. Called from any worker.
   virtual MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) = 0;
 
   void tick(Context& context) final;

@@ -6,9 +6,9 @@
 
 namespace ppm {
 
-/// For each particle the lowest particle with the same map at the same pose (bit by bit) and, if asked, the same prediction:
-/// copies of one ancestor, for which the same work need not be done twice.
-/// twins[i] == i for those to do the work.
+/// For each particle the lowest particle with the same map at the same pose (bit by bit) and, if asked, the same
+/// prediction: copies of one ancestor, for which the same work need not be done twice. twins[i] == i for those to do
+/// the work.
 std::vector<std::size_t> twins(const ParticleSet& belief, bool same_prediction);
 
 }  // namespace ppm

@@ -27,9 +27,8 @@ void ViewPredictor::before(Context& context) {
     if (leader[i] != i) shared.push_back(leader[i]);
   std::sort(shared.begin(), shared.end());
   shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
-  context.workers().for_each(shared.size(), [&](std::size_t k, int worker) {
-    particles.prediction[shared[k]] = view(shared[k], worker);
-  });
+  context.workers().for_each(
+      shared.size(), [&](std::size_t k, int worker) { particles.prediction[shared[k]] = view(shared[k], worker); });
   for (std::size_t i = 0; i < leader.size(); ++i) particles.prediction[i] = particles.prediction[leader[i]];
 }
 

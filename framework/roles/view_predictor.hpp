@@ -9,15 +9,15 @@
 
 namespace ppm {
 
-/// What each particle should see: the base of every `prediction.*`. Fills the belief's prediction column. Particles with the
-/// same map at the same pose share one Prediction. Draws no random numbers.
+/// What each particle should see: the base of every `prediction.*`. Fills the belief's prediction column. Particles
+/// with the same map at the same pose share one Prediction. Draws no random numbers.
 class ViewPredictor : public ParticleModule {
  public:
   In<Frame> frame{this, "frame", "Gives the camera whose view is predicted."};
   InOut<Belief> belief;
 
-  /// Work shared by all views of one map before they are predicted (acceleration structures). The maps are distinct, in the
-  /// order of the first particle that has each. Called from one thread.
+  /// Work shared by all views of one map before they are predicted (acceleration structures). The maps are distinct, in
+  /// the order of the first particle that has each. Called from one thread.
   virtual void prepare(const std::vector<const Map*>& maps, const Workers& workers) = 0;
   /// Predicts the view of `map` for out.camera at out.T_map_camera; `out` was reset to misses. Called from any worker.
   virtual void predict(const Map& map, Prediction& out, int worker) const = 0;

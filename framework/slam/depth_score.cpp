@@ -12,9 +12,9 @@ namespace ppm {
 
 namespace {
 
-constexpr double kInlier = 0.95;        // weight of the map's own density
-constexpr double kUniform = 1.0 / 10;   // 1/m, of a map that knows nothing
-constexpr double kTruncation = 0.20;    // m
+constexpr double kInlier = 0.95;       // weight of the map's own density
+constexpr double kUniform = 1.0 / 10;  // 1/m, of a map that knows nothing
+constexpr double kTruncation = 0.20;   // m
 
 double normal_density(double x, double variance) {
   return std::exp(-0.5 * x * x / variance) / std::sqrt(2 * std::numbers::pi * variance);
@@ -50,7 +50,8 @@ DepthScore DepthScorer::score() const {
   if (errors_m_.empty()) throw DataError("the held-out frames", "hold no valid measured pixel to compare");
   const auto n = static_cast<double>(errors_m_.size());
   auto within = [&](double limit_m) {
-    return static_cast<double>(std::count_if(errors_m_.begin(), errors_m_.end(), [=](double e) { return e <= limit_m; })) / n;
+    const auto good = std::ranges::count_if(errors_m_, [=](double e) { return e <= limit_m; });
+    return static_cast<double>(good) / n;
   };
   double truncated = 0;
   for (double e : errors_m_) truncated += std::min(e, kTruncation);

@@ -17,7 +17,9 @@ Trajectory& Trajectory::operator=(Trajectory other) noexcept {
   return *this;
 }
 
-Trajectory::~Trajectory() { release(head_); }
+Trajectory::~Trajectory() {
+  release(head_);
+}
 
 void Trajectory::release(Node* node) {
   while (node && node->count.fetch_sub(1, std::memory_order_acq_rel) == 1) delete std::exchange(node, node->parent);

@@ -15,8 +15,8 @@ struct Pair {
   Pose estimated, reference;
 };
 
-/// Each estimated pose with the reference nearest in time; a reference wanted by several goes to the nearest of them. As both
-/// paths are ordered by stamp, so are the pairs.
+/// Each estimated pose with the reference nearest in time; a reference wanted by several goes to the nearest of them.
+/// As both paths are ordered by stamp, so are the pairs.
 std::vector<Pair> associate(const std::vector<StampedPose>& estimated, const std::vector<StampedPose>& reference,
                             double max_dt_s) {
   std::vector<std::size_t> owner(reference.size(), estimated.size());
@@ -73,8 +73,9 @@ TrajectoryError trajectory_error(const std::vector<StampedPose>& estimated, cons
   const auto pairs = associate(estimated, reference, max_dt_s);
   const auto needed = std::max<std::size_t>(2, static_cast<std::size_t>(delta) + 1);
   if (pairs.size() < needed)
-    throw DataError("the trajectory", fmt::format("only {} of its {} poses have a reference pose within {} s; {} are needed",
-                                                  pairs.size(), estimated.size(), max_dt_s, needed));
+    throw DataError("the trajectory",
+                    fmt::format("only {} of its {} poses have a reference pose within {} s; {} are needed",
+                                pairs.size(), estimated.size(), max_dt_s, needed));
   TrajectoryError error;
   error.pairs = static_cast<int>(pairs.size());
   absolute_error(pairs, error);

@@ -40,8 +40,8 @@ std::string to_tum(const std::vector<StampedPose>& path) {
   for (const auto& p : path) {
     const Eigen::Vector3d t = p.T_map_camera.translation();
     const Eigen::Quaterniond q(p.T_map_camera.linear());
-    fmt::format_to(std::back_inserter(text), "{:.6f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n", p.stamp_s, t.x(),
-                   t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+    fmt::format_to(std::back_inserter(text), "{:.6f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n", p.stamp_s,
+                   t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
   }
   return text;
 }

@@ -8,10 +8,10 @@
 namespace ppm {
 namespace {
 
-/// Moves each particle on as it moved last: T_k = T_{k-1} exp(decay * dt_k / dt_{k-1} * log(T_{k-2}^-1 T_{k-1})) exp(noise).
-/// The velocity is a twist in the camera frame, from the particle's own path, so resampling moves it too. The ratio of the
-/// stamps' distances stands for frames that were skipped or held out. A path of one pose has no velocity yet.
-/// Noise is that of a step, whatever its length.
+/// Moves each particle on as it moved last: T_k = T_{k-1} exp(decay * dt_k / dt_{k-1} * log(T_{k-2}^-1 T_{k-1}))
+/// exp(noise). The velocity is a twist in the camera frame, from the particle's own path, so resampling moves it too.
+/// The ratio of the stamps' distances stands for frames that were skipped or held out. A path of one pose has no
+/// velocity yet. Noise is that of a step, whatever its length.
 class ConstantVelocity final : public Module {
  public:
   In<Frame> frame{this, "frame", "Gives index and stamp of the new pose."};

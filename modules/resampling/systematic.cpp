@@ -9,8 +9,9 @@
 namespace ppm {
 namespace {
 
-/// Ancestors by one uniform draw u in [0, 1): particle j is taken once for each of the points (k + u) / n, k = 0 .. n-1, that
-/// falls into its part of the cumulated weights. Its number of copies is n w_j rounded down or up, n w_j on average.
+/// Ancestors by one uniform draw u in [0, 1): particle j is taken once for each of the points (k + u) / n, k = 0 ..
+/// n-1, that falls into its part of the cumulated weights. Its number of copies is n w_j rounded down or up, n w_j on
+/// average.
 std::vector<std::uint32_t> systematic_ancestors(const std::vector<double>& log_weight, double u) {
   const auto n = log_weight.size();
   std::vector<double> below(n);  // cumulated weight up to and with j
@@ -42,8 +43,10 @@ class Systematic final : public Module {
   Systematic() {
     params_.add("ess_below", ess_below_)
         .range(0, 1)
-        .doc("Resamples when the effective sample size is below this share of the particles; 1 resamples unless all weights "
-             "are equal, 0 never.");
+        .doc(
+            "Resamples when the effective sample size is below this share of the particles; 1 resamples unless all "
+            "weights "
+            "are equal, 0 never.");
   }
 
   void tick(Context& context) override {
@@ -72,6 +75,7 @@ class Systematic final : public Module {
 }  // namespace ppm
 
 PPM_MODULES(r) {
-  r.add<ppm::Systematic>("resampling.systematic", "Resamples by systematic draws when the effective sample size is low.",
-                         "Kitagawa, \"Monte Carlo filter and smoother\", JCGS 1996; Doucet, Johansen 2009, section 3.4");
+  r.add<ppm::Systematic>(
+      "resampling.systematic", "Resamples by systematic draws when the effective sample size is low.",
+      "Kitagawa, \"Monte Carlo filter and smoother\", JCGS 1996; Doucet, Johansen 2009, section 3.4");
 }

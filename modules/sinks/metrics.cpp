@@ -8,8 +8,8 @@
 namespace ppm {
 namespace {
 
-/// Writes all that the nodes recorded, one line a frame, at the end of the run. It adds the source's number of the frame, the
-/// spread of the weights, and now and then what the maps occupy.
+/// Writes all that the nodes recorded, one line a frame, at the end of the run. It adds the source's number of the
+/// frame, the spread of the weights, and now and then what the maps occupy.
 class MetricsCsv final : public Module {
  public:
   In<Belief> belief{this, {{"belief"}, {}, {}}};
@@ -18,8 +18,10 @@ class MetricsCsv final : public Module {
     params_.add("file", file_).doc("Name of the file.");
     params_.add("memory_every", memory_every_)
         .range(0, 1e9)
-        .doc("Records map_bytes_owned (what the maps of all particles occupy together) and map_bytes_alone (what they would "
-             "without sharing) each n-th time; 0 never. It takes some milliseconds with a hundred particles.");
+        .doc(
+            "Records map_bytes_owned (what the maps of all particles occupy together) and map_bytes_alone (what they "
+            "would "
+            "without sharing) each n-th time; 0 never. It takes some milliseconds with a hundred particles.");
   }
 
   void tick(Context& context) override {
@@ -55,5 +57,6 @@ class MetricsCsv final : public Module {
 }  // namespace ppm
 
 PPM_MODULES(r) {
-  r.add<ppm::MetricsCsv>("sink.metrics", "Writes the numbers that the nodes recorded, a line a frame, as CSV.", "RFC 4180");
+  r.add<ppm::MetricsCsv>("sink.metrics", "Writes the numbers that the nodes recorded, a line a frame, as CSV.",
+                         "RFC 4180");
 }

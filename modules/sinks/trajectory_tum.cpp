@@ -9,15 +9,16 @@
 namespace ppm {
 namespace {
 
-/// Writes two paths at the end of the run: what the filter believes of all frames in hindsight, and what it believed of each
-/// frame when it was there.
+/// Writes two paths at the end of the run: what the filter believes of all frames in hindsight, and what it believed of
+/// each frame when it was there.
 class TrajectoryTum final : public Module {
  public:
   In<Belief> belief{this, {{"belief"}, {}, {}}};
 
   TrajectoryTum() {
     params_.add("file", file_).doc("Name of the file for the whole path of the particle that is best at the end.");
-    params_.add("online_file", online_file_).doc("Name of the file for the pose of the best particle at each frame, as it was then.");
+    params_.add("online_file", online_file_)
+        .doc("Name of the file for the pose of the best particle at each frame, as it was then.");
   }
 
   void tick(Context&) override {
@@ -40,6 +41,7 @@ class TrajectoryTum final : public Module {
 }  // namespace ppm
 
 PPM_MODULES(r) {
-  r.add<ppm::TrajectoryTum>("sink.trajectory_tum", "Writes the estimated path in TUM format, in hindsight and as it was at each frame.",
+  r.add<ppm::TrajectoryTum>("sink.trajectory_tum",
+                            "Writes the estimated path in TUM format, in hindsight and as it was at each frame.",
                             "Sturm et al., \"A benchmark for the evaluation of RGB-D SLAM systems\", IROS 2012");
 }

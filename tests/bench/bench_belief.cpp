@@ -1,8 +1,7 @@
-// What a particle costs: resampling, the first edit after it, and a step of its path. One map of 2,000 chunks (64,000 faces), as
-// after a large room or a small flat.
-#include <benchmark/benchmark.h>
-
+// What a particle costs: resampling, the first edit after it, and a step of its path. One map of 2,000 chunks (64,000
+// faces), as after a large room or a small flat.
 #include <algorithm>
+#include <benchmark/benchmark.h>
 #include <random>
 
 #include "framework/slam/particle_set.hpp"

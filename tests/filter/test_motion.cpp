@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -22,7 +21,9 @@ std::shared_ptr<const ppm::Frame> frame_at(std::int64_t index, double stamp_s, s
   return frame;
 }
 
-double distance(const Pose& a, const Pose& b) { return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff(); }
+double distance(const Pose& a, const Pose& b) {
+  return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
+}
 
 Twist some_twist() {
   Twist xi;
@@ -63,7 +64,8 @@ TEST_CASE("a path of one pose has no velocity; decay shortens it") {
   still.tick();
   CHECK(distance(still.belief().pose[0], ppm::se3_exp(some_twist())) < 1e-15);
 
-  ppm::Harness slowing(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 0, sigma_r: 0, velocity_decay: 0.5}");
+  ppm::Harness slowing(ppm::test::builtin(), "motion.constant_velocity",
+                       "{sigma_t: 0, sigma_r: 0, velocity_decay: 0.5}");
   begin(slowing.belief(), 1, some_twist());
   slowing.input<ppm::Frame>("frame", frame_at(2, 0.2));
   slowing.tick();
@@ -138,11 +140,13 @@ TEST_CASE("motion by reference is exact without noise, noisy with it, and needs 
   CHECK(distance(noisy.belief().pose[0], noisy.belief().pose[1]) > 1e-6);
 
   noisy.input<ppm::Frame>("frame", frame_at(13, 1.3));
-  CHECK_THROWS_WITH(noisy.tick(), Catch::Matchers::Contains("frame 13") && Catch::Matchers::Contains("no reference pose"));
+  CHECK_THROWS_WITH(noisy.tick(),
+                    Catch::Matchers::Contains("frame 13") && Catch::Matchers::Contains("no reference pose"));
 }
 
 TEST_CASE("motion parameters are checked") {
   CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 2 deg}"), ppm::ConfigError);
   CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{sigma_r: -1}"), ppm::ConfigError);
-  CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{velocity_decay: 1.5}"), ppm::ConfigError);
+  CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{velocity_decay: 1.5}"),
+                  ppm::ConfigError);
 }

@@ -1,9 +1,8 @@
 // MRPT's systematic resampler as an oracle for ours. Built where the package libmrpt-bayes-dev is installed.
 #include <catch2/catch.hpp>
+#include <map>
 #include <mrpt/bayes/CParticleFilterCapable.h>
 #include <mrpt/random.h>
-
-#include <map>
 
 #include "tests/support/resampling.hpp"
 
@@ -15,7 +14,8 @@ Counts mrpt_copies(const std::vector<double>& weights) {
   std::vector<double> log_weights;
   for (double w : weights) log_weights.push_back(std::log(w));
   std::vector<std::size_t> index;
-  mrpt::bayes::CParticleFilterCapable::computeResampling(mrpt::bayes::CParticleFilter::prSystematic, log_weights, index);
+  mrpt::bayes::CParticleFilterCapable::computeResampling(mrpt::bayes::CParticleFilter::prSystematic, log_weights,
+                                                         index);
   Counts count(weights.size());
   for (auto i : index) ++count[i];
   return count;

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 
@@ -30,9 +29,10 @@ TEST_CASE("decimation picks pixels from (0, 0) on, of depth, noise and colour") 
   CHECK(out.index == 4);
   CHECK(out.stamp_s == 0.5);
   CHECK(out.camera == image.camera.decimated(2));
-  CHECK(out.depth == std::vector<float>{image.depth[0], image.depth[2], image.depth[4], image.depth[10], image.depth[12],
-                                        image.depth[14]});
-  CHECK(std::vector<std::uint8_t>(out.color.begin() + 9, out.color.begin() + 12) == std::vector<std::uint8_t>{30, 31, 32});
+  CHECK(out.depth == std::vector<float>{image.depth[0], image.depth[2], image.depth[4], image.depth[10],
+                                        image.depth[12], image.depth[14]});
+  CHECK(std::vector<std::uint8_t>(out.color.begin() + 9, out.color.begin() + 12) ==
+        std::vector<std::uint8_t>{30, 31, 32});
   CHECK(out.color.size() == 18);
 }
 

@@ -39,7 +39,7 @@ TEST_CASE("holdout is 'none' or an English ordinal") {
   CHECK(ppm::parse_holdout("every 11th") == 11);
   CHECK(ppm::parse_holdout("every 21st") == 21);
   CHECK(ppm::parse_holdout("every 112th") == 112);
-  for (const char* wrong : {"", "every", "every 10", "every 10nd", "every 1st", "every 0th", "every -2th", "10th", "every 10th image",
-                            "every 99999999999999999999th"})
+  for (const char* wrong : {"", "every", "every 10", "every 10nd", "every 1st", "every 0th", "every -2th", "10th",
+                            "every 10th image", "every 99999999999999999999th"})
     CHECK(ppm::parse_holdout(wrong) == -1);
 }

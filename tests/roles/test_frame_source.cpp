@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <atomic>
+#include <catch2/catch.hpp>
 #include <chrono>
 #include <limits>
 #include <thread>
@@ -27,7 +26,9 @@ class ToySequence final : public ppm::FrameSequence {
   explicit ToySequence(const Toy& toy) : toy_(toy) {}
   std::string name() const override { return "toy/folder"; }
   std::int64_t size() const override { return toy_.images; }
-  double stamp_s(std::int64_t i) const override { return 0.1 * static_cast<double>(i == toy_.repeated_stamp ? i - 1 : i); }
+  double stamp_s(std::int64_t i) const override {
+    return 0.1 * static_cast<double>(i == toy_.repeated_stamp ? i - 1 : i);
+  }
   std::optional<ppm::Pose> reference_pose(std::int64_t i) const override {
     if (i == toy_.no_pose) return std::nullopt;
     ppm::Pose T = ppm::Pose::Identity();
@@ -54,7 +55,9 @@ class ToySequence final : public ppm::FrameSequence {
 class ToySource final : public ppm::FrameSource {
  public:
   explicit ToySource(const Toy& toy) : toy_(toy) {}
-  std::unique_ptr<const ppm::FrameSequence> open_sequence() const override { return std::make_unique<ToySequence>(toy_); }
+  std::unique_ptr<const ppm::FrameSequence> open_sequence() const override {
+    return std::make_unique<ToySequence>(toy_);
+  }
 
  private:
   Toy toy_;

@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <atomic>
+#include <catch2/catch.hpp>
 
 #include "framework/graph/harness.hpp"
 #include "framework/roles/map_editor.hpp"
@@ -48,8 +47,8 @@ TEST_CASE("copies of one ancestor are edited once and share the result") {
     belief.init(6, shifted(0), number_map(10));
     const auto view = std::make_shared<ppm::Prediction>();
     belief.prediction.assign(6, view);
-    belief.map[2] = belief.map[5] = number_map(20);               // another map, two copies
-    belief.pose[3] = shifted(1);                                  // the first map, elsewhere
+    belief.map[2] = belief.map[5] = number_map(20);              // another map, two copies
+    belief.pose[3] = shifted(1);                                 // the first map, elsewhere
     belief.prediction[4] = std::make_shared<ppm::Prediction>();  // the first map, another view
     edits = in_place = 0;
     h.tick();

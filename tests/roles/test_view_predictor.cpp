@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <atomic>
+#include <catch2/catch.hpp>
 
 #include "framework/graph/harness.hpp"
 #include "framework/roles/view_predictor.hpp"

@@ -18,8 +18,12 @@ class NumberMap final : public Map {
   int number;
 };
 
-inline MapHandle number_map(int n) { return std::make_shared<NumberMap>(n); }
-inline int number_of(const Map& map) { return dynamic_cast<const NumberMap&>(map).number; }
+inline MapHandle number_map(int n) {
+  return std::make_shared<NumberMap>(n);
+}
+inline int number_of(const Map& map) {
+  return dynamic_cast<const NumberMap&>(map).number;
+}
 
 inline Pose shifted(double x) {
   Pose T = Pose::Identity();

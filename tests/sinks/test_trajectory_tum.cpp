@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <filesystem>
 
 #include "framework/core/error.hpp"
@@ -49,7 +48,8 @@ TEST_CASE("the trajectory sink writes the best path in hindsight and the best po
 
 TEST_CASE("the trajectory sink takes file names, and says where it cannot write") {
   ppm::test::TempFolder out;
-  ppm::Harness named(ppm::test::builtin(), "sink.trajectory_tum", "{file: a.tum, online_file: b.tum}", 1, 1, out.path());
+  ppm::Harness named(ppm::test::builtin(), "sink.trajectory_tum", "{file: a.tum, online_file: b.tum}", 1, 1,
+                     out.path());
   drive(named);
   named.close();
   CHECK(std::filesystem::exists(out / "a.tum"));

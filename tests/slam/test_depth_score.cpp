@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -99,4 +98,6 @@ TEST_CASE("the compared pixels are those in the middle of each step") {
   CHECK_THROWS_AS(scorer.add(frame, p, 4), ppm::InternalError);
 }
 
-TEST_CASE("nothing to compare is an error") { CHECK_THROWS_AS(ppm::DepthScorer().score(), ppm::DataError); }
+TEST_CASE("nothing to compare is an error") {
+  CHECK_THROWS_AS(ppm::DepthScorer().score(), ppm::DataError);
+}

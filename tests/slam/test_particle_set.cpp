@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 #include <random>
@@ -23,7 +22,9 @@ class NumberedMap final : public ppm::Map {
   int number_;
 };
 
-int number_of(const ppm::MapHandle& map) { return dynamic_cast<const NumberedMap&>(*map).number(); }
+int number_of(const ppm::MapHandle& map) {
+  return dynamic_cast<const NumberedMap&>(*map).number();
+}
 
 /// A particle with nothing shared: the oracle.
 struct Plain {
@@ -35,7 +36,11 @@ struct Plain {
 std::vector<Plain> plain_copy(ppm::ParticleSet& set) {
   std::vector<Plain> out;
   for (std::size_t i = 0; i < set.size(); ++i) {
-    Plain p{set.pose[i].translation().x(), set.log_weight[i], set.column<double>("test/velocity")[i], number_of(set.map[i]), {}};
+    Plain p{set.pose[i].translation().x(),
+            set.log_weight[i],
+            set.column<double>("test/velocity")[i],
+            number_of(set.map[i]),
+            {}};
     for (const auto& s : set.trajectory[i].poses()) p.path.push_back(s.T_map_camera.translation().x());
     out.push_back(p);
   }
@@ -87,8 +92,12 @@ TEST_CASE("random gathers and edits agree with particles that share nothing") {
           set.map[i] = std::make_shared<NumberedMap>(step);
           oracle[i].map = step;
           break;
-        case 3: velocity[i] = oracle[i].velocity = value; break;
-        case 4: set.log_weight[i] = oracle[i].log_weight = -value; break;
+        case 3:
+          velocity[i] = oracle[i].velocity = value;
+          break;
+        case 4:
+          set.log_weight[i] = oracle[i].log_weight = -value;
+          break;
         default: {
           std::vector<std::uint32_t> ancestors(1 + random() % 12);
           for (auto& a : ancestors) a = static_cast<std::uint32_t>(random() % set.size());

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -51,8 +50,9 @@ TEST_CASE("a path moved as a whole has no error, and the move is found") {
 }
 
 TEST_CASE("the absolute error of a square with one corner off, by hand") {
-  // The four-corner figure is centred at the origin in both paths and mirror-symmetric about the diagonal x = y, so the best
-  // rotation is the identity. Off by d along the diagonal at one corner: the centred errors are (3/4, -1/4, -1/4, -1/4) d.
+  // The four-corner figure is centred at the origin in both paths and mirror-symmetric about the diagonal x = y, so the
+  // best rotation is the identity. Off by d along the diagonal at one corner: the centred errors are (3/4, -1/4, -1/4,
+  // -1/4) d.
   const Path reference = path_at({{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}});
   Path estimated = reference;
   estimated[0].T_map_camera.translation() += Eigen::Vector3d(0.4, 0.4, 0);

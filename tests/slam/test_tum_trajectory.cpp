@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -45,7 +44,8 @@ TEST_CASE("a path survives being written and read") {
 }
 
 TEST_CASE("comments, blank lines, tabs and Windows line ends are read") {
-  const auto path = ppm::read_tum(written("# stamp tx ty tz qx qy qz qw\r\n\r\n 1.5\t1 2 3  0 0 0 1\r\n#\n2 0 0 0 0 0 0.6 0.8"));
+  const auto path =
+      ppm::read_tum(written("# stamp tx ty tz qx qy qz qw\r\n\r\n 1.5\t1 2 3  0 0 0 1\r\n#\n2 0 0 0 0 0 0.6 0.8"));
   REQUIRE(path.size() == 2);
   CHECK(path[0].stamp_s == 1.5);
   CHECK(path[0].T_map_camera.translation() == Eigen::Vector3d(1, 2, 3));
