@@ -6,7 +6,7 @@ namespace ppm {
 using namespace parts;
 using Eigen::Isometry3d;
 
-void add_bookshelf(AnalyticScene& s, const Isometry3d& T) {
+void add_bookshelf(SceneBuilder& s, const Isometry3d& T) {
   constexpr double kDepth = 0.32, kWidth = 1.70, kHeight = 2.0;
   constexpr int kShelves = 5;
   s.begin_object("bookshelf", T);
@@ -34,7 +34,7 @@ void add_bookshelf(AnalyticScene& s, const Isometry3d& T) {
   }
 }
 
-void add_sideboard(AnalyticScene& s, const Isometry3d& T) {
+void add_sideboard(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("sideboard", T);
   box(s, {0, 0, 0.42}, {0.44, 1.80, 0.56}, kOak);
   box(s, {0, 0, 0.715}, {0.48, 1.86, 0.03}, kOak);
@@ -55,7 +55,7 @@ void add_sideboard(AnalyticScene& s, const Isometry3d& T) {
   box(s, {0.04, 0.76, 0.84}, {0.17, 0.14, 0.22}, kWalnut, yaw(-15));
 }
 
-void add_door(AnalyticScene& s, const Isometry3d& T) {
+void add_door(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("door", T);
   for (double side : {-1.0, 1.0}) box(s, {0.03, side * 0.48, 1.04}, {0.06, 0.08, 2.08}, kWhite);
   box(s, {0.03, 0, 2.06}, {0.06, 1.04, 0.08}, kWhite);
@@ -66,7 +66,7 @@ void add_door(AnalyticScene& s, const Isometry3d& T) {
   box(s, {0.075, 0.32, 1.03}, {0.02, 0.13, 0.022}, kSteel);
 }
 
-void add_window(AnalyticScene& s, const Isometry3d& T) {
+void add_window(SceneBuilder& s, const Isometry3d& T) {
   const Color glass(0.30f, 0.40f, 0.48f), linen(0.78f, 0.70f, 0.60f);
   s.begin_object("window", T);
   box(s, {0.005, 0, 1.50}, {0.01, 1.60, 1.20}, glass);
@@ -82,7 +82,7 @@ void add_window(AnalyticScene& s, const Isometry3d& T) {
   cylinder(s, {0.11, 0, 2.31}, 0.018, 2.70, kSteel, yaw(90) * tilt(90));
 }
 
-void add_picture(AnalyticScene& s, const Isometry3d& T, double width, double height) {
+void add_picture(SceneBuilder& s, const Isometry3d& T, double width, double height) {
   constexpr double kFrame = 0.05;
   s.begin_object("picture", T);
   for (double side : {-0.5, 0.5}) {

@@ -7,7 +7,7 @@ namespace ppm {
 using namespace parts;
 using Eigen::Isometry3d;
 
-void add_sofa(AnalyticScene& s, const Isometry3d& T) {
+void add_sofa(SceneBuilder& s, const Isometry3d& T) {
   const Color fabric(0.34f, 0.42f, 0.46f);
   s.begin_object("sofa", T);
   box(s, {0.05, 0, 0.22}, {0.85, 2.1, 0.28}, fabric);
@@ -20,7 +20,7 @@ void add_sofa(AnalyticScene& s, const Isometry3d& T) {
     for (double y : {-0.95, 0.95}) cylinder(s, {x, y, 0.04}, 0.03, 0.08, kWalnut);
 }
 
-void add_armchair(AnalyticScene& s, const Isometry3d& T) {
+void add_armchair(SceneBuilder& s, const Isometry3d& T) {
   const Color leather(0.48f, 0.30f, 0.19f);
   s.begin_object("armchair", T);
   box(s, {0.02, 0, 0.23}, {0.74, 0.80, 0.26}, leather);
@@ -34,7 +34,7 @@ void add_armchair(AnalyticScene& s, const Isometry3d& T) {
   legs(s, 0.7, 0.76, 0.10, 0.05, kBlack);
 }
 
-void add_coffee_table(AnalyticScene& s, const Isometry3d& T) {
+void add_coffee_table(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("coffee table", T);
   box(s, {0, 0, 0.415}, {0.60, 1.10, 0.03}, kOak);
   box(s, {0, 0, 0.16}, {0.50, 1.00, 0.02}, kOak);
@@ -50,7 +50,7 @@ void add_coffee_table(AnalyticScene& s, const Isometry3d& T) {
   box(s, {0.0, 0.0, 0.20}, {0.28, 0.40, 0.06}, kCream, yaw(-6));
 }
 
-void add_chair(AnalyticScene& s, const Isometry3d& T) {
+void add_chair(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("chair", T);
   box(s, {0, 0, 0.45}, {0.42, 0.42, 0.04}, kWalnut);
   legs(s, 0.42, 0.42, 0.43, 0.04, kWalnut);
@@ -60,7 +60,7 @@ void add_chair(AnalyticScene& s, const Isometry3d& T) {
   box(s, {0.01, 0, 0.485}, {0.37, 0.37, 0.03}, kGreen);
 }
 
-void add_dining_table(AnalyticScene& s, const Isometry3d& T) {
+void add_dining_table(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("dining table", T);
   box(s, {0, 0, 0.735}, {0.85, 1.50, 0.035}, kOak);
   legs(s, 0.75, 1.40, 0.72, 0.07, kOak);
@@ -76,14 +76,14 @@ void add_dining_table(AnalyticScene& s, const Isometry3d& T) {
   box(s, {-0.22, 0.42, 0.79}, {0.20, 0.32, 0.08}, kCream, yaw(20));
 }
 
-void add_floor_lamp(AnalyticScene& s, const Isometry3d& T) {
+void add_floor_lamp(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("floor lamp", T);
   cylinder(s, {0, 0, 0.015}, 0.16, 0.03, kBlack);
   cylinder(s, {0, 0, 0.75}, 0.017, 1.46, kSteel);
   cylinder(s, {0, 0, 1.52}, 0.20, 0.30, kCream);
 }
 
-void add_plant(AnalyticScene& s, const Isometry3d& T) {
+void add_plant(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("plant", T);
   cylinder(s, {0, 0, 0.19}, 0.19, 0.38, kTerracotta);
   cylinder(s, {0, 0, 0.60}, 0.025, 0.50, kWalnut);
@@ -93,7 +93,7 @@ void add_plant(AnalyticScene& s, const Isometry3d& T) {
   }
 }
 
-void add_coat_stand(AnalyticScene& s, const Isometry3d& T) {
+void add_coat_stand(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("coat stand", T);
   cylinder(s, {0, 0, 0.02}, 0.20, 0.04, kWalnut);
   cylinder(s, {0, 0, 0.88}, 0.025, 1.72, kWalnut);

@@ -1,5 +1,5 @@
 #pragma once
-#include "modules/sources/analytic_scene.hpp"
+#include "modules/sources/scene_builder.hpp"
 
 namespace ppm::parts {
 
@@ -24,20 +24,20 @@ inline Eigen::Isometry3d at(double x, double y, double z, double yaw_degrees) {
   return T;
 }
 
-inline void box(AnalyticScene& s, const Vec& center, const Vec& size, const Color& color,
+inline void box(SceneBuilder& s, const Vec& center, const Vec& size, const Color& color,
                 const Eigen::Matrix3d& R = Eigen::Matrix3d::Identity()) {
   s.add(Solid::Shape::box, center, size / 2, color, R);
 }
 /// An upright cylinder unless turned.
-inline void cylinder(AnalyticScene& s, const Vec& center, double radius, double height, const Color& color,
+inline void cylinder(SceneBuilder& s, const Vec& center, double radius, double height, const Color& color,
                      const Eigen::Matrix3d& R = Eigen::Matrix3d::Identity()) {
   s.add(Solid::Shape::cylinder, center, {radius, radius, height / 2}, color, R);
 }
-inline void sphere(AnalyticScene& s, const Vec& center, double radius, const Color& color) {
+inline void sphere(SceneBuilder& s, const Vec& center, double radius, const Color& color) {
   s.add(Solid::Shape::sphere, center, Vec::Constant(radius), color);
 }
 /// Four legs under a rectangle of length x width, from the floor to `height`.
-inline void legs(AnalyticScene& s, double length, double width, double height, double thickness, const Color& color) {
+inline void legs(SceneBuilder& s, double length, double width, double height, double thickness, const Color& color) {
   for (double x : {-0.5, 0.5})
     for (double y : {-0.5, 0.5})
       box(s, {x * (length - thickness), y * (width - thickness), height / 2}, {thickness, thickness, height}, color);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kThick = 0.1;  // of walls, floor and ceiling
 
-void add_shell(AnalyticScene& s) {
+void add_shell(SceneBuilder& s) {
   const Vec h = kRoomHalf;
   const double height = 2 * h.z();
   const Color paint(0.78f, 0.76f, 0.70f), accent(0.50f, 0.60f, 0.56f);
@@ -34,7 +34,7 @@ void add_shell(AnalyticScene& s) {
   }
 }
 
-void add_small_things(AnalyticScene& s) {
+void add_small_things(SceneBuilder& s) {
   s.begin_object("rug", at(0.0, 0.75, 0, 0));
   box(s, {0, 0, 0.006}, {2.6, 1.7, 0.012}, kRed * 0.9f);
   box(s, {0, 0, 0.007}, {2.3, 1.4, 0.014}, kCream);
@@ -52,6 +52,13 @@ void add_small_things(AnalyticScene& s) {
   box(s, {0.03, 0.02, 0.47}, {0.36, 0.30, 0.22}, {0.70f, 0.56f, 0.40f}, yaw(22));
   s.begin_object("waste bin", at(2.55, -0.95, 0, 0));
   cylinder(s, {0, 0, 0.16}, 0.14, 0.32, kSteel);
+  s.begin_object("basket", at(-2.45, -0.45, 0, 0));
+  cylinder(s, {0, 0, 0.20}, 0.20, 0.40, kOak);
+  cylinder(s, {0.05, 0.02, 0.42}, 0.13, 0.10, kCream);
+  s.begin_object("toy blocks", at(-1.65, -0.15, 0, 15));
+  box(s, {0, 0, 0.10}, {0.20, 0.20, 0.20}, kBlue);
+  box(s, {0.16, 0.18, 0.075}, {0.15, 0.15, 0.15}, kYellow, yaw(30));
+  box(s, {0.02, 0.01, 0.27}, {0.14, 0.14, 0.14}, kRed, yaw(20));
   s.begin_object("pouffe", at(1.35, 0.75, 0, 0));
   cylinder(s, {0, 0, 0.20}, 0.26, 0.40, kTerracotta);
 }
@@ -59,7 +66,7 @@ void add_small_things(AnalyticScene& s) {
 }  // namespace
 
 AnalyticScene make_room() {
-  AnalyticScene s;
+  SceneBuilder s;
   add_shell(s);
   add_small_things(s);
   add_sofa(s, at(0.0, 1.80, 0, -90));
@@ -81,7 +88,7 @@ AnalyticScene make_room() {
   add_coat_stand(s, at(-2.45, -2.0, 0, 30));
   add_plant(s, at(-2.3, 1.98, 0, 0));
   add_plant(s, at(2.45, -1.98, 0, 70));
-  return s;
+  return s.build();
 }
 
 }  // namespace ppm

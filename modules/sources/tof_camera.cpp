@@ -11,12 +11,13 @@ namespace ppm {
 namespace {
 
 constexpr double kLightSpeed = 299792458;
+constexpr double kEdge_m = 0.02;  // a jump in range that makes an edge
 constexpr double kPhasePerMetre = 4 * EIGEN_PI * TofCamera::kModulation_Hz / kLightSpeed;
 
 /// What a ray brings back.
 struct Echo {
   double range_m = 0, amplitude = 0, cosine = 0;
-  std::uint32_t solid = SceneHit::kNone;
+  SceneHit hit;
   Eigen::Vector3f color = Eigen::Vector3f::Zero();  // linear light
 };
 
@@ -26,10 +27,9 @@ Eigen::Vector3f lit(const Eigen::Vector3f& albedo, const Eigen::Vector3d& p, con
   return albedo * static_cast<float>(0.40 + 0.10 * normal.z() + 0.50 * lamp);
 }
 
-Echo echo(const AnalyticScene& scene, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, bool color) {
-  const SceneHit hit = scene.cast(origin, direction);
+Echo echo(const AnalyticScene& scene, const SceneHit& hit, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, bool color) {
   if (hit.solid == SceneHit::kNone) return {};
-  Echo e{hit.range_m, 0, -hit.normal.dot(direction), hit.solid, {}};
+  Echo e{hit.range_m, 0, -hit.normal.dot(direction), hit, {}};
   const Eigen::Vector3f& albedo = scene.solids()[hit.solid].albedo;
   e.amplitude = albedo.mean() * e.cosine / (hit.range_m * hit.range_m);
   if (color) e.color = lit(albedo, origin + hit.range_m * direction, hit.normal);
@@ -43,7 +43,10 @@ class Exposure {
       : tof_(tof), scene_(scene), T_(T_world_camera), cols_(tof.camera.cols), rows_(tof.camera.rows) {
     echoes_.reserve(static_cast<std::size_t>(tof.camera.pixels()));
     for (int y = 0; y < rows_; ++y)
-      for (int x = 0; x < cols_; ++x) echoes_.push_back(sample(x, y));
+      for (int x = 0; x < cols_; ++x) {
+        const Eigen::Vector3d d = ray(x, y);
+        echoes_.push_back(echo(scene_, scene_.cast(T_.translation(), d), T_.translation(), d, tof_.color));
+      }
   }
   /// What the pixel's whole area brings back: a phasor sum where more than one surface is in it.
   Echo pixel(int x, int y) const {
@@ -53,26 +56,51 @@ class Exposure {
 
  private:
   const Echo& at(int x, int y) const { return echoes_[static_cast<std::size_t>(y * cols_ + x)]; }
-  Echo sample(double x, double y) const {
-    return echo(scene_, T_.translation(), T_.linear() * tof_.camera.ray(x, y).normalized(), tof_.color);
-  }
-  bool on_edge(int x, int y) const {
-    const std::uint32_t solid = at(x, y).solid;
+  Eigen::Vector3d ray(double x, double y) const { return T_.linear() * tof_.camera.ray(x, y).normalized(); }
+  /// Calls f(x, y) for the pixel and those around it.
+  template <class F>
+  void around(int x, int y, F f) const {
     for (int v = std::max(0, y - 1); v <= std::min(rows_ - 1, y + 1); ++v)
-      for (int u = std::max(0, x - 1); u <= std::min(cols_ - 1, x + 1); ++u)
-        if (at(u, v).solid != solid) return true;
-    return false;
+      for (int u = std::max(0, x - 1); u <= std::min(cols_ - 1, x + 1); ++u) f(u, v);
   }
+  /// Whether a surface begins beside or within the pixel that does not lie in its centre's tangent plane. Creases, where the
+  /// ranges within a pixel differ little, do not count.
+  bool on_edge(int x, int y) const {
+    const SceneHit& hit = at(x, y).hit;
+    const double plane = hit.normal.dot(ray(x, y)) * hit.range_m;
+    bool edge = false;
+    around(x, y, [&](int u, int v) {
+      const SceneHit& beside = at(u, v).hit;
+      if (!edge && beside.solid != hit.solid) edge = std::abs(plane / hit.normal.dot(ray(u, v)) - beside.range_m) > kEdge_m;
+    });
+    return edge;
+  }
+  /// The solids that are seen in the pixel or around it, each once.
+  std::vector<std::uint32_t> seen_around(int x, int y) const {
+    std::vector<std::uint32_t> seen;
+    around(x, y, [&](int u, int v) {
+      const std::uint32_t solid = at(u, v).hit.solid;
+      if (solid != SceneHit::kNone && std::find(seen.begin(), seen.end(), solid) == seen.end()) seen.push_back(solid);
+    });
+    return seen;
+  }
+  /// Nine samples, which see what the centres around saw: a thing that no pixel's centre sees is too thin to count.
   Echo mixed(int x, int y, const Echo& centre) const {
     constexpr int kSamples = 9;
+    const auto seen = seen_around(x, y);
     std::complex<double> phasor = 0;
-    Echo sum = centre;
-    sum.color.setZero();
+    double amplitudes = 0;
+    Echo sum{0, 0, 0, centre.hit, Eigen::Vector3f::Zero()};
     for (int k = 0; k < kSamples; ++k) {
-      const Echo e = k == kSamples / 2 ? centre : sample(x + (k % 3 - 1) / 3.0, y + (k / 3 - 1) / 3.0);
+      const Eigen::Vector3d d = ray(x + (k % 3 - 1) / 3.0, y + (k / 3 - 1) / 3.0);
+      const Echo e = echo(scene_, scene_.cast_among(seen, T_.translation(), d), T_.translation(), d, tof_.color);
       phasor += std::polar(e.amplitude, e.range_m * kPhasePerMetre);
+      amplitudes += e.amplitude;
+      sum.cosine += e.amplitude * e.cosine;
       sum.color += e.color / kSamples;
     }
+    if (amplitudes == 0) return sum;
+    sum.cosine /= amplitudes;
     sum.amplitude = std::abs(phasor) / kSamples;
     sum.range_m = std::arg(phasor) / kPhasePerMetre;
     if (sum.range_m < 0) sum.range_m += 2 * EIGEN_PI / kPhasePerMetre;

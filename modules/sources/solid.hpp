@@ -1,0 +1,31 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <limits>
+
+namespace ppm {
+
+/// A closed solid with an exact surface. Local axes: a box has half sizes half.xyz; a cylinder stands on its local z with radius
+/// half.x = half.y and half height half.z, with flat ends; a sphere has radius half.x = half.y = half.z.
+struct Solid {
+  enum class Shape { box, cylinder, sphere };
+  Shape shape = Shape::box;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();          ///< m, world
+  Eigen::Matrix3d R_world_local = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5);     ///< m
+  Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.6f);  ///< reflectance of red, green, blue in [0, 1]
+};
+
+/// Where a ray enters a solid.
+struct SolidHit {
+  double range_m = std::numeric_limits<double>::infinity();  ///< along the ray; infinity = it does not
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();          ///< unit, outwards, in the solid's local axes
+};
+
+/// direction: unit. A ray that starts inside does not enter.
+SolidHit enter(const Solid& solid, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
+/// Exact distance from a point to the surface, m; negative inside.
+double signed_distance(const Solid& solid, const Eigen::Vector3d& p_world);
+/// The smallest box around it in world axes, for a cylinder nearly so.
+Eigen::AlignedBox3d bounds(const Solid& solid);
+
+}  // namespace ppm
