@@ -1,0 +1,16 @@
+# Installs ppm from BUILD, builds the plug-in in SOURCE against what was installed, and runs it by name. WORK: an empty folder.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "failed (${status}): ${ARGV}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/prefix/bin/ppm run ${SOURCE}/graph.yaml --plugin ${WORK}/build/drift.so --out ${WORK}/run)
+if(NOT EXISTS ${WORK}/run/trajectory.tum)
+  message(FATAL_ERROR "the run left no trajectory.tum")
+endif()
