@@ -79,6 +79,10 @@ class PpmBayesUpdate final : public MapEditor {
         .doc("Boundary loops of up to so many edges are closed; 0 = none.");
     params_.add("hole_perimeter", settings_.holes.perimeter_most).unit("m").range(0, 100)
         .doc("Boundary loops up to this length are closed.");
+    params_.add("notch_angle", settings_.notches.angle_most).unit("rad").range(0, 3)
+        .doc("Two boundary edges that meet at a sharper angle are joined by a face: slits close like a zip. 0 = never.");
+    params_.add("notch_edge", settings_.notches.edge_most).unit("m").range(0, 100)
+        .doc("Only notches whose edges are shorter than this are joined.");
   }
   void add_votes() {
     params_.add("votes_ratio", settings_.votes.through_per_hit).range(0, 1000)

@@ -153,6 +153,7 @@ std::vector<std::vector<std::uint32_t>> small_loops(const Boundary& boundary, co
 }
 
 void fill_holes(const UpdateView& view, const HoleSettings& settings, Boundary& boundary, std::vector<RimFace>& faces) {
+  if (settings.edges_most < 3) return;
   std::vector<std::uint8_t> usable(boundary.vertex.size());
   for (std::size_t v = 0; v < usable.size(); ++v) {
     const Eigen::Vector3f image = view.project(boundary.vertex[v].point);

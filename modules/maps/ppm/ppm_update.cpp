@@ -58,7 +58,7 @@ std::vector<std::uint8_t> wanted_pixels(const UpdateView& view, const std::vecto
 
 }  // namespace
 
-void UpdateSettings::share_gate() { texels.gate = surface.triangle.gate = holes.gate = gate; }
+void UpdateSettings::share_gate() { texels.gate = surface.triangle.gate = notches.triangle.gate = holes.gate = gate; }
 
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame, const Prediction& prediction,
                                          const UpdateSettings& settings, std::int64_t frame_number, UpdateCounts* counts) {
@@ -69,8 +69,7 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
 
   PpmEdit edit(std::move(map));
   const auto tallies = tally_faces(edit.map(), view, classes);
-  std::vector<FaceRef> removed;
-  if (settings.delete_faces) removed = cast_votes(tallies, settings.votes, edit);
+  const std::vector<FaceRef> removed = cast_votes(tallies, settings.votes, edit);
   std::vector<FaceRef> kept;
   for (const auto& t : tallies)
     if (!std::binary_search(removed.begin(), removed.end(), t.face)) kept.push_back(t.face);
@@ -89,7 +88,8 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   const auto wanted = wanted_pixels(view, classes, thin ? 0 : settings.open_radius);
   make_surface(view, classes, wanted, settings.surface, boundary, faces);
   const auto made = faces.size();
-  if (settings.fill) fill_holes(view, settings.holes, boundary, faces);
+  fill_notches(view, classes, settings.notches, boundary, faces);
+  fill_holes(view, settings.holes, boundary, faces);
   FaceWriter writer(view, settings.texels, boundary, edit);
   for (const auto& f : faces) writer.write(f);
   if (counts) *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made, removed.size()};

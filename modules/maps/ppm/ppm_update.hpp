@@ -7,6 +7,7 @@
 #include "modules/maps/ppm/face_votes.hpp"
 #include "modules/maps/ppm/hole_fill.hpp"
 #include "modules/maps/ppm/new_surface.hpp"
+#include "modules/maps/ppm/notch_fill.hpp"
 #include "modules/maps/ppm/texel_update.hpp"
 
 namespace ppm {
@@ -15,13 +16,12 @@ namespace ppm {
 struct UpdateSettings {
   SurfaceGate gate;              ///< copied into the parts below by whoever sets it
   float classify_sigmas = 4;
-  int open_radius = 2;           ///< px, of the opening that leaves thin strips of wanted pixels for later
-  int thin_every = 5;            ///< frames: so often thin strips are let through
-  bool delete_faces = true;
+  int open_radius = 2;           ///< px, of the opening that leaves thin strips of wanted pixels for later; 0 = none
+  int thin_every = 2;            ///< frames: so often thin strips are let through; 0 = never
   VoteSettings votes;
   TexelSettings texels;
   NewSurfaceSettings surface;
-  bool fill = true;
+  NotchSettings notches;
   HoleSettings holes;
 
   /// Gives every part the same gate.
@@ -34,7 +34,7 @@ struct UpdateCounts {
 };
 
 /// The map after one frame: pixels are classified against the prediction, faces voted on and removed, texels updated, new surface
-/// made and stitched on, small holes filled. A pure function of its arguments: the same bytes each time.
+/// made and stitched on, slits and small holes closed. A pure function of its arguments: the same bytes each time.
 /// map: moved in; where it is the only handle its memory is reused. prediction: of this map at the frame's pose.
 /// frame_number: of the run, from 0.
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame, const Prediction& prediction,
