@@ -77,5 +77,5 @@ class Systematic final : public Module {
 PPM_MODULES(r) {
   r.add<ppm::Systematic>(
       "resampling.systematic", "Resamples by systematic draws when the effective sample size is low.",
-      "Kitagawa, \"Monte Carlo filter and smoother\", JCGS 1996; Doucet, Johansen 2009, section 3.4");
+      "Kitagawa, \"Monte Carlo filter and smoother\", JCGS 1996; Doucet, Johansen 2011, section 3.4");
 }
