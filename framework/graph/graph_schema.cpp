@@ -4,6 +4,7 @@
 
 #include "framework/config/units.hpp"
 #include "framework/graph/describe.hpp"
+#include "framework/graph/param_text.hpp"
 
 namespace ppm {
 
@@ -27,11 +28,10 @@ Json number_schema(const ParamSpec& spec) {
   } else {
     schema["type"] = {"number", "string"};  // a string carries a unit: "2 cm"
   }
-  constexpr double kHuge = 9e18;  // no limit worth writing
   if (std::isfinite(spec.least())) {
     schema[spec.least_excluded() ? "exclusiveMinimum" : "minimum"] = limit(spec, spec.least());
   }
-  if (std::isfinite(spec.most()) && spec.most() < kHuge) schema["maximum"] = limit(spec, spec.most());
+  if (std::isfinite(spec.most())) schema["maximum"] = limit(spec, spec.most());
   return schema;
 }
 
@@ -57,8 +57,7 @@ Json param_schema(const ParamSpec& spec) {
   Json schema = type_schema(spec);
   std::string text = spec.doc();
   if (!spec.unit().empty()) text += fmt::format(" Units: {}.", fmt::join(units_of(spec.unit()), ", "));
-  if (!spec.is_required())
-    text += fmt::format(" Default: {}.", spec.default_text().empty() ? "empty" : spec.default_text());
+  if (!spec.is_required()) text += fmt::format(" Default: {}.", default_text(spec));
   schema["description"] = text;
   return schema;
 }

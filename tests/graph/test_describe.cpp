@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/graph/describe.hpp"
+#include "framework/graph/param_text.hpp"
 #include "tests/support/toy_modules.hpp"
 
 using namespace ppm;
@@ -42,8 +43,8 @@ TEST_CASE("a module's page for the terminal") {
         "  drops prediction\n"
         "\n"
         "parameters\n"
-        "  sigma  number   0.1 m  0 .. 10 m  Standard deviation of a step.\n"
-        "  ends   boolean  false             Whether the loop ends here.\n");
+        "  sigma  number, m  0.1 m  0 .. 10 m  Standard deviation of a step.\n"
+        "  ends   boolean    false             Whether the loop ends here.\n");
 }
 
 TEST_CASE("a module's page in Markdown") {
@@ -70,8 +71,24 @@ TEST_CASE("a module's page in Markdown") {
         "\n"
         "| name | type | default | allowed | |\n"
         "|---|---|---|---|---|\n"
-        "| `sigma` | number | 0.1 m | 0 .. 10 m | Standard deviation of a step. |\n"
+        "| `sigma` | number, m | 0.1 m | 0 .. 10 m | Standard deviation of a step. |\n"
         "| `ends` | boolean | false |  | Whether the loop ends here. |\n");
+}
+
+TEST_CASE("limits and defaults of parameters as a reader thinks of them") {
+  double angle = 0.5235987755982988, length = 0.02, share = 1;
+  std::int64_t count = 3;
+  std::string name;
+  Params params;
+  auto& turn = params.add("turn", angle).unit("rad").range(-3.141592653589793, 3.141592653589793);
+  CHECK(default_text(turn) == "30 deg");
+  CHECK(allowed_text(turn) == "-180 .. 180 deg");
+  CHECK(allowed_text(params.add("length", length).unit("m").above(0)) == "> 0 m");
+  CHECK(allowed_text(params.add("share", share).range(0, 1).above(0)) == "> 0, <= 1");
+  CHECK(allowed_text(params.add("count", count)) == "");
+  CHECK(default_text(params.add("name", name)) == "\"\"");
+  CHECK(default_text(params.add("kind", name).choices({"a", "b"}).required()) == "(required)");
+  CHECK(allowed_text(*params.find("kind")) == "one of a, b");
 }
 
 TEST_CASE("the pages of a registry, with a list of all") {
