@@ -39,7 +39,9 @@ void GraphBuilder::override_tree(Config& file, const std::vector<Override>& over
       continue;
     }
     if (!found->find("params")) found->set("params", o.value.place(), Config());
-    found->find("params")->set(o.key, o.value.place(), o.value);
+    Config& params = *found->find("params");
+    const bool settable = params.kind() == Config::Kind::map || params.kind() == Config::Kind::null;
+    if (settable) params.set(o.key, o.value.place(), o.value);  // else reading the node says what is wrong
   }
 }
 

@@ -139,6 +139,8 @@ TEST_CASE("--set passes the checks of the file") {
         "--set inti.particles=3:1:16: no node 'inti'; did you mean 'init'?");
   CHECK(mistakes(graph, {parse_override("sed=3")}) ==
         "--set sed=3:1:5: unknown key 'sed' of the graph; did you mean 'seed'?");
+  const std::string broken = with("  - {name: init, module: map.toy, params: 3}\n");
+  CHECK(mistakes(broken, {parse_override("init.particles=3")}) == mistakes(broken));
   CHECK_THROWS_WITH(parse_override("init.particles"), "--set init.particles: write node.key=value");
   CHECK_THROWS_WITH(parse_override(".particles=3"), "--set .particles=3: write node.key=value");
 }
