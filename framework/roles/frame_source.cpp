@@ -98,11 +98,13 @@ Frame FrameSource::full_frame(std::int64_t index) const {
   return load(index, 1);
 }
 
-std::vector<StampedPose> FrameSource::reference() const {
+std::vector<StampedPose> FrameSource::reference(std::int64_t last) const {
   PPM_CHECK(sequence_, "the source is not open");
   std::vector<StampedPose> path;
-  for (auto index : selection_.mapped)
+  for (auto index : selection_.mapped) {
+    if (index > last) break;
     if (const auto pose = checked_pose(index)) path.push_back({index, sequence_->stamp_s(index), *pose});
+  }
   return path;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <future>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,8 +32,9 @@ class FrameSource : public Module {
   const std::vector<std::int64_t>& selected() const { return selection_.mapped; }
   /// A held-out image at the source's own resolution (no pixel stride), with range limits and sigma. Throws DataError.
   Frame full_frame(std::int64_t index) const;
-  /// The reference path over the selected images that have a pose; empty where the source has none. Valid after open().
-  std::vector<StampedPose> reference() const;
+  /// The reference path over the selected images, up to the image `last`, that have a pose; empty where the source has none.
+  /// Valid after open(). Throws DataError where a pose is broken.
+  std::vector<StampedPose> reference(std::int64_t last = std::numeric_limits<std::int64_t>::max()) const;
   /// Opens the sequence without a run, for evaluation.
   void open_for_evaluation();
 

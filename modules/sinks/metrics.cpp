@@ -1,9 +1,8 @@
 #include <string>
-#include <unordered_set>
 
 #include "framework/core/atomic_file.hpp"
 #include "framework/graph/registry.hpp"
-#include "framework/slam/particle_set.hpp"
+#include "framework/slam/map_memory.hpp"
 
 namespace ppm {
 namespace {
@@ -38,14 +37,9 @@ class MetricsCsv final : public Module {
 
  private:
   void record_memory(Context& context) const {
-    std::unordered_set<const void*> seen;
-    std::int64_t owned = 0, alone = 0;
-    for (const auto& map : belief->map) {
-      owned += map->account(seen);
-      alone += map->stats().bytes;
-    }
-    context.metric("map_bytes_owned", static_cast<double>(owned));
-    context.metric("map_bytes_alone", static_cast<double>(alone));
+    const auto memory = map_memory(*belief);
+    context.metric("map_bytes_owned", static_cast<double>(memory.together));
+    context.metric("map_bytes_alone", static_cast<double>(memory.alone));
   }
 
   std::string file_ = "metrics.csv";

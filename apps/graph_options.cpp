@@ -1,0 +1,73 @@
+#include "apps/graph_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "framework/graph/plugin.hpp"
+#include "modules/builtin.hpp"
+
+namespace ppm {
+
+namespace {
+
+/// Collects the mistakes of several steps, so that one run tells them all.
+class Mistakes {
+ public:
+  template <class F>
+  void collect(F&& step) {
+    try {
+      step();
+    } catch (const ConfigError& e) {
+      all_.insert(all_.end(), e.diagnostics().begin(), e.diagnostics().end());
+    }
+  }
+  void throw_if_any() {
+    if (!all_.empty()) throw ConfigError(std::move(all_));
+  }
+
+ private:
+  Diagnostics all_;
+};
+
+}  // namespace
+
+Registry make_registry(const std::vector<std::filesystem::path>& plugins) {
+  Registry registry;
+  register_builtin(registry);
+  Mistakes mistakes;
+  for (const auto& library : plugins)
+    mistakes.collect([&] { load_plugin(library, Place{"--plugin " + library.string()}, registry); });
+  mistakes.throw_if_any();
+  return registry;
+}
+
+void add_plugin_option(CLI::App& command, std::vector<std::filesystem::path>& plugins) {
+  command.add_option("--plugin", plugins, "Shared library with further modules; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("LIBRARY");
+}
+
+void GraphOptions::add_to(CLI::App& command) {
+  command.add_option("graph", file, "Graph file (YAML)")->required()->type_name("FILE");
+  command.add_option("--set", set, "A parameter in place of the file's, node.key=value; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NODE.KEY=VALUE");
+  command.add_option("--seed", seed, "Seed in place of the file's")->type_name("N");
+  add_plugin_option(command, plugins);
+}
+
+Graph GraphOptions::load() const {
+  const Config tree = load_yaml(file);
+  Registry registry = make_registry(plugins);
+  Mistakes mistakes;
+  for (const auto& [library, place] : Graph::plugins(tree))
+    mistakes.collect([&, lib = library, at = place] { load_plugin(lib, at, registry); });
+  std::vector<Override> overrides;
+  for (const auto& text : set) mistakes.collect([&] { overrides.push_back(parse_override(text)); });
+  if (seed) overrides.push_back(Override{"", "seed", Config::scalar(std::to_string(*seed), Place{"--seed"})});
+  Graph graph;
+  mistakes.collect([&] { graph = Graph::build(tree, registry, overrides); });
+  mistakes.throw_if_any();
+  return graph;
+}
+
+}  // namespace ppm

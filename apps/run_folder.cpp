@@ -1,0 +1,74 @@
+#include "apps/run_folder.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "framework/core/error.hpp"
+
+namespace ppm {
+
+namespace {
+
+constexpr const char* kReport = "run.json";
+
+std::map<std::string, std::filesystem::file_time_type> file_times(const std::filesystem::path& folder) {
+  std::map<std::string, std::filesystem::file_time_type> times;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_regular_file()) times[entry.path().filename().string()] = entry.last_write_time();
+  return times;
+}
+
+/// The files that a run.json lists, and itself; none where it lists none.
+std::vector<std::string> listed_files(const std::filesystem::path& report) {
+  std::ifstream in(report);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  std::vector<std::string> files;
+  if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) return files;
+  for (const auto& name : json["files"]) {
+    // A name, never a way out of the folder.
+    if (name.is_string() && std::filesystem::path(name.get<std::string>()).filename() == name.get<std::string>())
+      files.push_back(name.get<std::string>());
+  }
+  files.emplace_back(kReport);
+  return files;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(std::filesystem::path path, bool force) : path_(std::move(path)) {
+  namespace fs = std::filesystem;
+  if (fs::exists(path_) && !fs::is_directory(path_)) throw ConfigError(Place{"--out " + path_.string()}, "this is a file, not a folder");
+  std::error_code error;
+  made_ = fs::create_directories(path_, error);
+  if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", path_.string(), error.message()));
+  before_ = file_times(path_);
+  const bool is_run = before_.contains(kReport);
+  if (is_run) earlier_ = listed_files(path_ / kReport);
+  if (!is_run && !force && !fs::is_empty(path_))
+    throw ConfigError(Place{"--out " + path_.string()}, "the folder holds other things than a run; --force writes into it all the same");
+}
+
+RunFolder::~RunFolder() {
+  std::error_code ignored;
+  if (made_ && std::filesystem::is_empty(path_, ignored)) std::filesystem::remove(path_, ignored);
+}
+
+void RunFolder::drop_earlier_results() {
+  const auto now = file_times(path_);
+  for (const auto& name : earlier_) {
+    const auto file = now.find(name);
+    if (file != now.end() && file->second == before_[name]) std::filesystem::remove(path_ / name);
+  }
+  earlier_.clear();
+}
+
+std::vector<std::string> RunFolder::written() const {
+  std::vector<std::string> names;
+  for (const auto& [name, time] : file_times(path_)) {
+    const auto old = before_.find(name);
+    if (old == before_.end() || old->second != time) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace ppm

@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace ppm {
+
+/// The folder that a run writes to. It may be new, empty, or of an earlier run, whose results this one replaces.
+class RunFolder {
+ public:
+  /// Makes the folder. Throws ConfigError where it is a file, or holds other things than a run and `force` is not set;
+  /// OutputError where it cannot be made.
+  RunFolder(std::filesystem::path path, bool force);
+  /// Removes the folder if it was made here and is empty: a run that failed leaves nothing.
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Removes what the earlier run listed in its run.json and this one has not written yet. For when the first frame is done: a
+  /// run whose input cannot be read leaves the earlier results alone.
+  void drop_earlier_results();
+  /// Names of the files that this run has written, in alphabetical order.
+  std::vector<std::string> written() const;
+
+ private:
+  using Times = std::map<std::string, std::filesystem::file_time_type>;
+  std::filesystem::path path_;
+  bool made_ = false;
+  Times before_;                      // files that were there
+  std::vector<std::string> earlier_;  // those that the earlier run's run.json lists, and itself
+};
+
+}  // namespace ppm

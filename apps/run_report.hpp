@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/accuracy.hpp"
+#include "framework/graph/executor.hpp"
+
+namespace ppm {
+
+/// All that run.json tells.
+struct RunReport {
+  const Graph& graph;
+  const RunSummary& summary;
+  const ParticleSet& belief;
+  const Metrics& metrics;
+  const Workers& workers;
+  const Accuracy& accuracy;
+  std::filesystem::path graph_file;
+  std::vector<std::string> files;  ///< that the run has written
+};
+
+/// run.json, as documented in docs/metrics.md.
+std::string run_json(const RunReport& report);
+
+/// Trajectory and held-out numbers as in run.json, for `ppm evaluate --json`.
+std::string accuracy_json(const Accuracy& accuracy);
+
+/// Image index of the last frame of a run, from its run.json. Throws ConfigError where the folder holds no run.
+std::int64_t last_index_of_run(const std::filesystem::path& run);
+
+}  // namespace ppm

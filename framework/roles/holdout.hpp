@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/core/parallel.hpp"
+#include "framework/roles/frame_source.hpp"
+#include "framework/roles/view_predictor.hpp"
+#include "framework/slam/depth_score.hpp"
+#include "framework/slam/trajectory.hpp"
+
+namespace ppm {
+
+/// Where held-out frames are looked at from.
+struct HoldoutPoses {
+  std::string name;  ///< "reference", "reference, aligned" or "estimated"
+  /// T_map_camera of a frame; nothing where there is none for it.
+  std::function<std::optional<Pose>(const Frame&)> T_map_camera;
+};
+
+/// The frames' reference poses. Where `path` is the reference itself (mapping with known poses) the map is in the reference's
+/// frame; else they are moved into the map's frame by the rigid alignment of path and reference (trajectory_error).
+/// Throws DataError where these have fewer than 2 frames in common.
+HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference);
+/// Interpolated by stamp between neighbouring poses of the path; none before its first and after its last pose.
+HoldoutPoses estimated_poses(std::vector<StampedPose> path);
+
+/// The pixels (x, y) with x % step == y % step == step/2 of a held-out frame are compared.
+constexpr int kHoldoutStep = 8;
+
+struct Holdout {
+  DepthScore score;
+  std::size_t frames = 0;  ///< held-out frames that had a pose
+  std::string poses;       ///< HoldoutPoses::name
+};
+
+/// Predicts the held-out frames of a source (open) up to index `last` from a map of the kind that the predictor can look at, and
+/// compares. Nothing where no such frame has a pose. The same numbers for any number of workers. Throws DataError.
+std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source, std::int64_t last, ViewPredictor& predictor,
+                                     const HoldoutPoses& poses, const Workers& workers);
+
+}  // namespace ppm
