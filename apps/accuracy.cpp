@@ -16,20 +16,19 @@ bool can_see(const ViewPredictor& predictor, const Map& map) {
 
 }  // namespace
 
-Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& path, std::int64_t last_index, const Map* map,
-                          HoldoutFrom from, const Workers& workers) {
+Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& path, std::int64_t last_index,
+                          const Map* map, HoldoutFrom from, const Workers& workers) {
   Accuracy result;
   const auto* source = graph.first<FrameSource>();
   if (!source) return result;
   const auto reference = source->reference(last_index);
-  const bool comparable = path.size() >= 2 && reference.size() >= 2;
-  if (comparable) result.trajectory = trajectory_error(path, reference);
+  if (path.size() >= 2 && reference.size() >= 2) result.trajectory = trajectory_error(path, reference);
 
   auto* predictor = graph.first<ViewPredictor>();
   if (source->held_out().empty() || !predictor || !map || !can_see(*predictor, *map)) return result;
-  if (from == HoldoutFrom::reference && !comparable)
+  if (from == HoldoutFrom::reference && reference.empty())
     throw ConfigError({}, "the source has no reference poses to predict held-out frames from; use --poses estimated");
-  const bool use_reference = from == HoldoutFrom::reference || (from == HoldoutFrom::automatic && comparable);
+  const bool use_reference = from == HoldoutFrom::reference || (from == HoldoutFrom::automatic && !reference.empty());
   const auto poses = use_reference ? reference_poses(path, reference) : estimated_poses(path);
   result.holdout = score_holdout(*map, *source, last_index, *predictor, poses, workers);
   return result;
@@ -38,13 +37,15 @@ Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& pa
 std::string accuracy_table(const Accuracy& accuracy) {
   std::string text;
   if (const auto& t = accuracy.trajectory) {
-    text += fmt::format("  trajectory  ATE {:.4f} m   RPE {:.4f} m, {:.3f} deg   ({} poses)\n", t->ate_rmse_m, t->rpe_trans_rmse_m,
-                        t->rpe_rot_rmse_deg, t->pairs);
+    text += fmt::format("  trajectory  ATE {:.4f} m   RPE {:.4f} m, {:.3f} deg   ({} poses)\n", t->ate_rmse_m,
+                        t->rpe_trans_rmse_m, t->rpe_rot_rmse_deg, t->pairs);
   }
   if (const auto& h = accuracy.holdout) {
     const auto& s = h->score;
-    text += fmt::format("  held out    coverage {:.4f}   median {:.2f} mm   within 1/2/5 cm {:.3f} {:.3f} {:.3f}   ({} frames, poses: {})\n",
-                        s.coverage, s.median_mm, s.within_1cm, s.within_2cm, s.within_5cm, h->frames, h->poses);
+    text += fmt::format(
+        "  held out    coverage {:.4f}   median {:.2f} mm   within 1/2/5 cm {:.3f} {:.3f} {:.3f}   ({} frames, poses: "
+        "{})\n",
+        s.coverage, s.median_mm, s.within_1cm, s.within_2cm, s.within_5cm, h->frames, h->poses);
   }
   return text;
 }

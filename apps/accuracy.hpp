@@ -18,10 +18,11 @@ struct Accuracy {
 
 enum class HoldoutFrom { automatic, reference, estimated };  ///< automatic: reference, or estimated where there is none
 
-/// path: poses of all frames of the run, the last of which is image `last_index` of the source. map: null where there is none.
-/// The graph's source must be open. Throws DataError; ConfigError where `from` asks for poses that the source does not have.
-Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& path, std::int64_t last_index, const Map* map,
-                          HoldoutFrom from, const Workers& workers);
+/// path: poses of all frames of the run, the last of which is image `last_index` of the source. map: null where there
+/// is none. The graph's source must be open. Throws DataError; ConfigError where `from` asks for poses that the source
+/// does not have.
+Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& path, std::int64_t last_index,
+                          const Map* map, HoldoutFrom from, const Workers& workers);
 
 /// A table of a few lines for the terminal; "" where nothing could be measured.
 std::string accuracy_table(const Accuracy& accuracy);

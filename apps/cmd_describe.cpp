@@ -1,6 +1,5 @@
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 #include <memory>
 
 #include "apps/commands.hpp"
@@ -22,8 +21,9 @@ void describe(const DescribeOptions& options) {
   const ModuleInfo* info = registry.find(options.module);
   if (!info) {
     const auto near = did_you_mean(options.module, registry.names());
-    throw ConfigError({}, fmt::format("no module '{}'; {}", options.module,
-                                      near.empty() ? "'ppm list' names them all" : fmt::format("did you mean '{}'?", near)));
+    throw ConfigError(
+        {}, fmt::format("no module '{}'; {}", options.module,
+                        near.empty() ? "'ppm list' names them all" : fmt::format("did you mean '{}'?", near)));
   }
   fmt::print("{}", options.markdown ? describe_markdown(*info) : describe_text(*info));
 }
@@ -33,7 +33,9 @@ void describe(const DescribeOptions& options) {
 void add_describe(CLI::App& app) {
   auto* command = app.add_subcommand("describe", "Tells all about a module: ports, parameters, source");
   auto options = std::make_shared<DescribeOptions>();
-  command->add_option("module", options->module, "For example motion.constant_velocity")->required()->type_name("MODULE");
+  command->add_option("module", options->module, "For example motion.constant_velocity")
+      ->required()
+      ->type_name("MODULE");
   command->add_flag("--markdown", options->markdown, "As a page of the documentation");
   add_plugin_option(*command, options->plugins);
   command->callback([options] { describe(*options); });

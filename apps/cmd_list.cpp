@@ -1,7 +1,6 @@
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fmt/core.h>
 #include <memory>
 
 #include "apps/commands.hpp"
@@ -17,14 +16,17 @@ struct ListOptions {
   std::vector<std::filesystem::path> plugins;
 };
 
-std::string category_of(const std::string& module) { return module.substr(0, module.find('.')); }
+std::string category_of(const std::string& module) {
+  return module.substr(0, module.find('.'));
+}
 
 void check_category(const std::string& category, const std::vector<const ModuleInfo*>& all) {
   std::vector<std::string> known;
   for (const auto* info : all) known.push_back(category_of(info->name));
   if (std::ranges::find(known, category) != known.end()) return;
   const auto near = did_you_mean(category, known);
-  throw ConfigError({}, fmt::format("no category '{}'{}", category, near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  throw ConfigError(
+      {}, fmt::format("no category '{}'{}", category, near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
 void list(const ListOptions& options) {
@@ -40,7 +42,8 @@ void list(const ListOptions& options) {
     if (options.names) {
       fmt::print("{}\n", info->name);
     } else {
-      fmt::print("{:<{}}  {}{}\n", info->name, width, info->summary, info->origin == "built in" ? "" : " [" + info->origin + "]");
+      fmt::print("{:<{}}  {}{}\n", info->name, width, info->summary,
+                 info->origin == "built in" ? "" : " [" + info->origin + "]");
     }
   }
 }

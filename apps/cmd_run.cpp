@@ -1,6 +1,6 @@
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
+#include <exception>
+#include <fmt/core.h>
 #include <limits>
 #include <memory>
 
@@ -25,7 +25,7 @@ struct RunOptions {
   bool force = false, quiet = false;
 };
 
-/// Frames first, then what can be told of them.
+/// What a run holds, in the order in which it is made.
 struct Run {
   Graph graph;
   RunFolder folder;
@@ -73,12 +73,20 @@ struct Run {
 bool run(const RunOptions& options) {
   Run run(options);
   const RunSummary summary = run.frames(options);
-  const Accuracy measured = run.accuracy();
+  Accuracy measured;
+  std::exception_ptr broken;  // a held-out frame or a reference pose: the run itself is sound and is written
+  try {
+    measured = run.accuracy();
+  } catch (const DataError&) {
+    broken = std::current_exception();
+  }
   run.write(summary, measured, options.graph.file);
+  if (broken) std::rethrow_exception(broken);
   if (!options.quiet) {
-    fmt::print("{} {} frames in {:.1f} s ({:.1f} fps); results in {}\n{}", summary.interrupted ? "interrupted after" : "done:",
-               summary.frames, summary.wall_s, static_cast<double>(summary.frames) / std::max(summary.wall_s, 1e-9),
-               run.folder.path().string(), accuracy_table(measured));
+    fmt::print("{} {} frames in {:.1f} s ({:.1f} fps); results in {}\n{}",
+               summary.interrupted ? "interrupted after" : "done:", summary.frames, summary.wall_s,
+               static_cast<double>(summary.frames) / std::max(summary.wall_s, 1e-9), run.folder.path().string(),
+               accuracy_table(measured));
   }
   return !summary.interrupted;
 }
@@ -89,11 +97,16 @@ void add_run(CLI::App& app) {
   auto* command = app.add_subcommand("run", "Runs a graph and writes a folder of results");
   auto options = std::make_shared<RunOptions>();
   options->graph.add_to(*command);
-  command->add_option("--frames", options->frames, "At most so many frames")->check(CLI::Range(std::int64_t{1}, options->frames))->type_name("N");
-  command->add_option("--threads", options->threads, "Worker threads; 0 is as many as the machine has. The results do not depend on it")
+  command->add_option("--frames", options->frames, "At most so many frames")
+      ->check(CLI::Range(std::int64_t{1}, options->frames))
+      ->type_name("N");
+  command
+      ->add_option("--threads", options->threads,
+                   "Worker threads; 0 is as many as the machine has. The results do not depend on it")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
-  command->add_option("--out", options->out, "Folder for the results (default: runs/NAME, after the graph's name)")->type_name("FOLDER");
+  command->add_option("--out", options->out, "Folder for the results (default: runs/NAME, after the graph's name)")
+      ->type_name("FOLDER");
   command->add_flag("--force", options->force, "Write also into a folder that holds other things than a run");
   command->add_flag("--quiet", options->quiet, "Only warnings and errors");
   command->footer("Ctrl-C ends the frame, writes everything, and exits with 1; a second one aborts.");

@@ -31,6 +31,8 @@ int run_command(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return 0;
+  } catch (const CLI::RuntimeError& e) {  // a command that ended early and has said so
+    return e.get_exit_code();
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : kInputIsWrong;  // --help and --version come this way too
   }

@@ -37,7 +37,8 @@ std::vector<std::string> listed_files(const std::filesystem::path& report) {
 
 RunFolder::RunFolder(std::filesystem::path path, bool force) : path_(std::move(path)) {
   namespace fs = std::filesystem;
-  if (fs::exists(path_) && !fs::is_directory(path_)) throw ConfigError(Place{"--out " + path_.string()}, "this is a file, not a folder");
+  if (fs::exists(path_) && !fs::is_directory(path_))
+    throw ConfigError(Place{"--out " + path_.string()}, "this is a file, not a folder");
   std::error_code error;
   made_ = fs::create_directories(path_, error);
   if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", path_.string(), error.message()));
@@ -45,7 +46,8 @@ RunFolder::RunFolder(std::filesystem::path path, bool force) : path_(std::move(p
   const bool is_run = before_.contains(kReport);
   if (is_run) earlier_ = listed_files(path_ / kReport);
   if (!is_run && !force && !fs::is_empty(path_))
-    throw ConfigError(Place{"--out " + path_.string()}, "the folder holds other things than a run; --force writes into it all the same");
+    throw ConfigError(Place{"--out " + path_.string()},
+                      "the folder holds other things than a run; --force writes into it all the same");
 }
 
 RunFolder::~RunFolder() {

@@ -18,8 +18,8 @@ class RunFolder {
   RunFolder& operator=(const RunFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Removes what the earlier run listed in its run.json and this one has not written yet. For when the first frame is done: a
-  /// run whose input cannot be read leaves the earlier results alone.
+  /// Removes what the earlier run listed in its run.json and this one has not written yet. For when the first frame is
+  /// done: a run whose input cannot be read leaves the earlier results alone.
   void drop_earlier_results();
   /// Names of the files that this run has written, in alphabetical order.
   std::vector<std::string> written() const;

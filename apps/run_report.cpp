@@ -22,8 +22,11 @@ Json nodes_json(const RunReport& report) {
     const auto times = report.summary.nodes.find(node.name);
     if (times == report.summary.nodes.end()) continue;
     const auto& ms = times->second.ms;
-    nodes[node.name] = {{"module", node.module_name}, {"runs", ms.size()},          {"ms_mean", mean(ms)},
-                        {"ms_p50", quantile(ms, 0.5)}, {"ms_p99", quantile(ms, 0.99)}};
+    nodes[node.name] = {{"module", node.module_name},
+                        {"runs", ms.size()},
+                        {"ms_mean", mean(ms)},
+                        {"ms_p50", quantile(ms, 0.5)},
+                        {"ms_p99", quantile(ms, 0.99)}};
   }
   return nodes;
 }

@@ -1,9 +1,8 @@
 #include "apps/stop_signal.hpp"
 
 #include <signal.h>
-#include <unistd.h>
-
 #include <string_view>
+#include <unistd.h>
 
 namespace ppm {
 
@@ -39,6 +38,8 @@ StopSignal::~StopSignal() {
   handle(SIGTERM, SIG_DFL);
 }
 
-const std::atomic<bool>& StopSignal::requested() const { return stop_requested; }
+const std::atomic<bool>& StopSignal::requested() const {
+  return stop_requested;
+}
 
 }  // namespace ppm

@@ -2,25 +2,45 @@
 
 #include <algorithm>
 
-#include "framework/slam/trajectory_error.hpp"
+#include "framework/core/error.hpp"
 
 namespace ppm {
 
 namespace {
 
-/// Poses written as text and read again differ by this much, m and rad.
-constexpr double kSamePose = 1e-7;
+/// Stamps and poses written as text and read again differ by this much: s, m, rad.
+constexpr double kSameStamp = 1e-6, kSamePose = 1e-7;
 
-/// True where the path consists of reference poses.
-bool is_reference(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference) {
+/// Estimated and reference pose of one frame.
+struct Pair {
+  Pose estimated, reference;
+};
+
+std::vector<Pair> pairs_of(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference) {
+  std::vector<Pair> pairs;
   auto at = reference.begin();
   for (const auto& p : path) {
-    at = std::find_if(at, reference.end(), [&](const StampedPose& r) { return std::abs(r.stamp_s - p.stamp_s) < 1e-6; });
-    if (at == reference.end()) return false;
-    const Pose off = at->T_map_camera.inverse() * p.T_map_camera;
-    if (off.translation().norm() > kSamePose || rotation_angle(off) > kSamePose) return false;
+    while (at != reference.end() && at->stamp_s < p.stamp_s - kSameStamp) ++at;
+    if (at != reference.end() && at->stamp_s <= p.stamp_s + kSameStamp)
+      pairs.push_back({p.T_map_camera, at->T_map_camera});
   }
-  return !path.empty();
+  return pairs;
+}
+
+bool is_same(const Pair& pair) {
+  const Pose off = pair.reference.inverse() * pair.estimated;
+  return off.translation().norm() < kSamePose && rotation_angle(off) < kSamePose;
+}
+
+/// T_map_ref. Source of the mean of rotations: Hartley et al., "Rotation averaging", IJCV 2013, section 5.3.
+Pose align_poses(const std::vector<Pair>& pairs) {
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  for (const auto& p : pairs) sum.topLeftCorner<3, 3>() += p.estimated.linear() * p.reference.linear().transpose();
+  Pose T_map_ref = orthonormalized(sum);
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  for (const auto& p : pairs) offset += p.estimated.translation() - T_map_ref.linear() * p.reference.translation();
+  T_map_ref.translation() = offset / static_cast<double>(pairs.size());
+  return T_map_ref;
 }
 
 /// One held-out frame and what the map predicts of it.
@@ -41,8 +61,11 @@ void look(const Map& map, const ViewPredictor& predictor, const HoldoutPoses& po
 }  // namespace
 
 HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference) {
-  if (is_reference(path, reference)) return {"reference", [](const Frame& f) { return f.T_world_camera_ref; }};
-  const Pose T_map_ref = trajectory_error(path, reference).T_ref_est.inverse();
+  const auto pairs = pairs_of(path, reference);
+  if (pairs.empty()) throw DataError("the trajectory", "none of its poses has a reference pose");
+  if (pairs.size() == path.size() && std::ranges::all_of(pairs, is_same))
+    return {"reference", [](const Frame& f) { return f.T_world_camera_ref; }};
+  const Pose T_map_ref = align_poses(pairs);
   return {"reference, aligned", [T_map_ref](const Frame& f) -> std::optional<Pose> {
             if (!f.T_world_camera_ref) return std::nullopt;
             return T_map_ref * *f.T_world_camera_ref;
@@ -51,7 +74,8 @@ HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::ve
 
 HoldoutPoses estimated_poses(std::vector<StampedPose> path) {
   return {"estimated", [path = std::move(path)](const Frame& f) -> std::optional<Pose> {
-            const auto after = std::find_if(path.begin(), path.end(), [&](const auto& p) { return p.stamp_s >= f.stamp_s; });
+            const auto after =
+                std::find_if(path.begin(), path.end(), [&](const auto& p) { return p.stamp_s >= f.stamp_s; });
             if (after == path.end() || (after == path.begin() && after->stamp_s > f.stamp_s)) return std::nullopt;
             if (after == path.begin()) return after->T_map_camera;
             const auto before = after - 1;
@@ -60,8 +84,8 @@ HoldoutPoses estimated_poses(std::vector<StampedPose> path) {
           }};
 }
 
-std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source, std::int64_t last, ViewPredictor& predictor,
-                                     const HoldoutPoses& poses, const Workers& workers) {
+std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source, std::int64_t last,
+                                     ViewPredictor& predictor, const HoldoutPoses& poses, const Workers& workers) {
   std::vector<std::int64_t> indices;
   for (auto i : source.held_out())
     if (i <= last) indices.push_back(i);

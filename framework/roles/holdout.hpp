@@ -20,9 +20,11 @@ struct HoldoutPoses {
   std::function<std::optional<Pose>(const Frame&)> T_map_camera;
 };
 
-/// The frames' reference poses. Where `path` is the reference itself (mapping with known poses) the map is in the reference's
-/// frame; else they are moved into the map's frame by the rigid alignment of path and reference (trajectory_error).
-/// Throws DataError where these have fewer than 2 frames in common.
+/// The frames' reference poses. Where `path` is the reference itself (mapping with known poses) the map is in the
+/// reference's frame; else they are moved into the map's frame by the rigid motion that takes the reference's poses
+/// nearest to the path's, over all frames that both have: the chordal mean of the rotations, then the mean of the
+/// translations. (The alignment of the trajectory error looks at positions alone, which leaves the rotation open on a
+/// straight or a short path.) Throws DataError where they have no frame in common.
 HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference);
 /// Interpolated by stamp between neighbouring poses of the path; none before its first and after its last pose.
 HoldoutPoses estimated_poses(std::vector<StampedPose> path);
@@ -36,9 +38,10 @@ struct Holdout {
   std::string poses;       ///< HoldoutPoses::name
 };
 
-/// Predicts the held-out frames of a source (open) up to index `last` from a map of the kind that the predictor can look at, and
-/// compares. Nothing where no such frame has a pose. The same numbers for any number of workers. Throws DataError.
-std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source, std::int64_t last, ViewPredictor& predictor,
-                                     const HoldoutPoses& poses, const Workers& workers);
+/// Predicts the held-out frames of a source (open) up to index `last` from a map of the kind that the predictor can
+/// look at, and compares. Nothing where no such frame has a pose. The same numbers for any number of workers. Throws
+/// DataError.
+std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source, std::int64_t last,
+                                     ViewPredictor& predictor, const HoldoutPoses& poses, const Workers& workers);
 
 }  // namespace ppm

@@ -7,7 +7,9 @@ namespace ppm {
 
 namespace {
 
-void add_pose(Digest& digest, const Pose& pose) { digest.add(pose.data(), 16 * sizeof(double)); }
+void add_pose(Digest& digest, const Pose& pose) {
+  digest.add(pose.data(), 16 * sizeof(double));
+}
 
 /// The digest of each distinct map, computed in parallel.
 std::unordered_map<const Map*, std::string> map_digests(const std::vector<MapHandle>& maps, const Workers& workers) {

@@ -1,0 +1,106 @@
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <memory>
+
+#include "apps/accuracy.hpp"
+#include "apps/commands.hpp"
+#include "apps/graph_options.hpp"
+#include "apps/run_report.hpp"
+#include "framework/slam/tum_trajectory.hpp"
+#include "modules/maps/ppm/ppm_file.hpp"
+
+namespace ppm {
+
+namespace {
+
+void print(const Accuracy& accuracy, bool json) {
+  fmt::print("{}", json ? accuracy_json(accuracy) : accuracy_table(accuracy));
+}
+
+struct TrajectoryOptions {
+  std::filesystem::path estimated, reference;
+  double max_dt_s = 0.02;
+  int delta = 1;
+  bool json = false;
+};
+
+void evaluate_trajectory(const TrajectoryOptions& o) {
+  Accuracy accuracy;
+  accuracy.trajectory = trajectory_error(read_tum(o.estimated), read_tum(o.reference), o.max_dt_s, o.delta);
+  print(accuracy, o.json);
+}
+
+void add_trajectory(CLI::App& evaluate) {
+  auto* command = evaluate.add_subcommand("trajectory", "A path against a reference, both in TUM format: ATE and RPE");
+  auto o = std::make_shared<TrajectoryOptions>();
+  command->add_option("estimated", o->estimated, "Estimated path")->required()->type_name("FILE");
+  command->add_option("reference", o->reference, "Reference path")->required()->type_name("FILE");
+  command->add_option("--max-dt", o->max_dt_s, "Poses further apart in time are not compared, s")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->add_option("--delta", o->delta, "Poses between the two ends of a relative pose")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_flag("--json", o->json, "As JSON");
+  command->callback([o] { evaluate_trajectory(*o); });
+}
+
+struct MapOptions {
+  std::filesystem::path run;
+  bool holdout = false, json = false;
+  HoldoutFrom poses = HoldoutFrom::automatic;
+  std::vector<std::filesystem::path> plugins;
+  int threads = 0;
+};
+
+void evaluate_map(const MapOptions& o) {
+  if (!o.holdout) throw ConfigError({}, "say what to measure the map with: --holdout");
+  GraphOptions options;
+  options.file = o.run / "config.effective.yaml";
+  options.plugins = o.plugins;
+  const Graph graph = options.load();
+  auto* source = graph.first<FrameSource>();
+  if (!source) throw ConfigError(Place{options.file.string()}, "the graph has no source to take held-out frames from");
+  const auto last_index = last_index_of_run(o.run);
+  const auto path = read_tum(o.run / "trajectory.tum");
+  const auto map = load_ppm(o.run / "map.ppm");
+  source->open_for_evaluation();
+  const Accuracy accuracy = measure_accuracy(graph, path, last_index, map.get(), o.poses, Workers(o.threads));
+  if (!accuracy.holdout)
+    throw ConfigError(Place{options.file.string()},
+                      "the graph holds out no frame that has a pose, or cannot predict views of this map");
+  print(accuracy, o.json);
+}
+
+void add_map(CLI::App& evaluate) {
+  auto* command = evaluate.add_subcommand("map", "The map of a run against frames that it has not seen");
+  auto o = std::make_shared<MapOptions>();
+  command
+      ->add_option("run", o->run,
+                   "Folder of a run, with map.ppm (sink.map_ppm) and trajectory.tum (sink.trajectory_tum)")
+      ->required()
+      ->type_name("FOLDER");
+  command->add_flag("--holdout", o->holdout, "Predict the depth of the frames that the source held out");
+  command
+      ->add_option("--poses", o->poses,
+                   "Where held-out frames are looked at from: 'reference' poses, or 'estimated' ones between their "
+                   "neighbours on the path; by default the reference where there is one")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, HoldoutFrom>{{"reference", HoldoutFrom::reference},
+                                                                             {"estimated", HoldoutFrom::estimated}}));
+  command->add_option("--threads", o->threads, "Worker threads; 0 is as many as the machine has")
+      ->check(CLI::Range(0, 4096));
+  add_plugin_option(*command, o->plugins);
+  command->add_flag("--json", o->json, "As JSON");
+  command->callback([o] { evaluate_map(*o); });
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app) {
+  auto* command = app.add_subcommand("evaluate", "Measures a path or a map");
+  command->require_subcommand(1);
+  add_trajectory(*command);
+  add_map(*command);
+}
+
+}  // namespace ppm

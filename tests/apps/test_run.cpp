@@ -1,0 +1,137 @@
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "tests/apps/command.hpp"
+
+using namespace ppm::test;
+using Catch::Matchers::Contains;
+
+TEST_CASE("a run leaves its folder complete and says where it is") {
+  SmallRoom room;
+  const auto run = room.run();
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  CHECK_THAT(run->out, Contains("results in " + room.out.string()) && Contains("ATE") && Contains("coverage"));
+
+  const auto json = read_json(room.out / "run.json");
+  CHECK(json["graph"] == "small");
+  CHECK(json["seed"] == 3);
+  CHECK(json["frames"] == 10);  // 12 less the held-out images 2 and 7
+  CHECK(json["last_index"] == 11);
+  CHECK(json["interrupted"] == false);
+  CHECK(json["particles"] == 6);
+  CHECK(json["wall_s"].get<double>() > 0);
+  CHECK(json["fps"].get<double>() == Approx(10 / json["wall_s"].get<double>()));
+  CHECK(json["ess_mean"].get<double>() >= 1);
+  CHECK(json["ess_mean"].get<double>() <= 6);
+  CHECK(json["nodes"]["look"]["runs"] == 10);
+  CHECK(json["nodes"]["motion"]["runs"] == 9);
+  for (const char* key : {"ms_mean", "ms_p50", "ms_p99"}) CHECK(json["nodes"]["update"][key].get<double>() > 0);
+  for (const char* key : {"chunks", "vertices", "faces", "texels", "bytes", "bytes_owned_total"})
+    CHECK(json["map"][key].get<std::int64_t>() > 0);
+  CHECK(json["map"]["bytes_shared_total"].get<std::int64_t>() >= 0);
+  CHECK(json["trajectory"]["pairs"] == 10);
+  CHECK(json["trajectory"]["ate_rmse_m"].get<double>() < 0.1);
+  CHECK(json["holdout"]["frames"] == 2);
+  CHECK(json["holdout"]["poses"] == "reference, aligned");
+  CHECK(json["holdout"]["coverage"].get<double>() > 0.5);
+  CHECK(json["holdout"]["median_mm"].get<double>() < 60);
+  CHECK(json["digest"].get<std::string>().size() == 32);
+
+  CHECK(half_written(room.out).empty());
+  std::vector<std::string> files = json["files"];
+  CHECK(files == std::vector<std::string>{"config.effective.yaml", "map.ppm", "metrics.csv", "trajectory.tum",
+                                          "trajectory_online.tum"});
+  for (const auto& f : files) CHECK(std::filesystem::file_size(room.out / f) > 0);
+}
+
+TEST_CASE("the same bytes for 1, 2 and 4 threads, and from the effective configuration; others for another seed") {
+  SmallRoom room;
+  auto digest = [&](std::vector<std::string> more) {
+    const auto run = room.run(std::move(more));
+    INFO(run->err);
+    REQUIRE(run->code == 0);
+    return read_json(room.out / "run.json")["digest"].get<std::string>();
+  };
+  const auto one = digest({"--threads", "1"});
+  CHECK(digest({"--threads", "2"}) == one);
+  CHECK(digest({"--threads", "4"}) == one);
+  CHECK(digest({"--seed", "4"}) != one);
+  CHECK(digest({"--set", "motion.sigma_t=5 mm"}) != one);
+
+  REQUIRE(room.run()->code == 0);
+  const auto again =
+      ppm_command({"run", (room.out / "config.effective.yaml").string(), "--out", (room.folder / "again").string()});
+  INFO(again->err);
+  REQUIRE(again->code == 0);
+  CHECK(read_json(room.folder / "again/run.json")["digest"] == one);
+  CHECK(content(room.folder / "again/config.effective.yaml") == content(room.out / "config.effective.yaml"));
+}
+
+TEST_CASE("--frames ends early, --quiet is quiet, and only frames up to the last mapped one are scored") {
+  SmallRoom room;
+  const auto run = room.run({"--frames", "5", "--quiet"});
+  REQUIRE(run->code == 0);
+  CHECK(run->out.empty());
+  CHECK(run->err.empty());
+  const auto json = read_json(room.out / "run.json");
+  CHECK(json["frames"] == 5);
+  CHECK(json["last_index"] == 5);
+  CHECK(json["holdout"]["frames"] == 1);
+}
+
+TEST_CASE("one frame is a run too: nothing to compare a path with") {
+  SmallRoom room;
+  const auto run = room.run({"--frames", "1"});
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  CHECK_FALSE(read_json(room.out / "run.json").contains("trajectory"));
+}
+
+TEST_CASE("with known poses the held-out frames are looked at from the reference itself") {
+  SmallRoom room;
+  auto text = content(room.graph);
+  text.replace(text.find("motion.constant_velocity"), 24, "motion.reference_pose");
+  const auto sigma = text.find(", params: {sigma_t: 4 mm, sigma_r: 0.3 deg}");
+  text.erase(sigma, text.find('}', sigma) - sigma + 1);
+  write_text(room.graph, text);
+  const auto run = room.run();
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  const auto json = read_json(room.out / "run.json");
+  CHECK(json["holdout"]["poses"] == "reference");
+  CHECK(json["trajectory"]["ate_rmse_m"].get<double>() < 1e-9);
+}
+
+TEST_CASE("Ctrl-C ends the frame, writes everything, says so; the exit code is 1") {
+  SmallRoom room;
+  auto run = start_ppm(
+      {"run", room.graph, "--out", room.out.string(), "--set", "camera.frames=100000", "--set", "camera.holdout=none"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  run->send(SIGINT);
+  run->wait();
+  INFO(run->err);
+  CHECK(run->code == 1);
+  CHECK_THAT(run->err, Contains("interrupted: finishing this frame"));
+  CHECK_THAT(run->out, Contains("interrupted after") && Contains("results in"));
+  const auto json = read_json(room.out / "run.json");
+  CHECK(json["interrupted"] == true);
+  CHECK(json["frames"].get<int>() > 0);
+  CHECK(half_written(room.out).empty());
+  CHECK(lines(content(room.out / "trajectory.tum")).size() == json["frames"].get<std::size_t>());
+  CHECK(std::filesystem::exists(room.out / "map.ppm"));
+}
+
+TEST_CASE("a second Ctrl-C aborts: no result is left under its name") {
+  SmallRoom room;
+  auto run = start_ppm({"run", room.graph, "--out", room.out.string(), "--set", "camera.frames=100000", "--set",
+                        "camera.pixel_stride=1", "--set", "init.particles=400", "--set", "camera.holdout=none"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  run->send(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  run->send(SIGINT);
+  run->wait();
+  CHECK(run->code == -1);
+  CHECK(run->signal == SIGINT);
+  CHECK_FALSE(std::filesystem::exists(room.out / "run.json"));
+}
