@@ -24,7 +24,7 @@ class PpmBayesUpdate final : public MapEditor {
     add_votes();
   }
 
-  void before(Context&) override { settings_.share_gate(); }
+  void before(Context&) override { settings_.share(); }
 
   MapHandle edit(Context& context, std::size_t particle, MapHandle map, int) override {
     const PredictionHandle seen = belief->prediction[particle];

@@ -12,7 +12,7 @@ class Mapper {
  public:
   explicit Mapper(UpdateSettings settings = {}, PpmSettings map_settings = {})
       : settings_(settings), map_(std::make_shared<PpmMap>(map_settings)) {
-    settings_.share_gate();
+    settings_.share();
   }
 
   const PpmMap& map() const { return *map_; }

@@ -6,23 +6,21 @@
 namespace ppm {
 namespace {
 
-constexpr float kScale = 1024.0f;
-
 using Site = boost::polygon::point_data<int>;
 using Diagram = boost::polygon::voronoi_diagram<double>;
 
-std::int64_t area(const Site& a, const Site& b, const Site& c) {
-  return static_cast<std::int64_t>(b.x() - a.x()) * (c.y() - a.y()) - static_cast<std::int64_t>(c.x() - a.x()) * (b.y() - a.y());
-}
-
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 3>> delaunay(const std::vector<Eigen::Vector2f>& points) {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+GridPoint GridPoint::of(const Eigen::Vector2f& p) {
+  return {static_cast<std::int32_t>(std::lround(p.x() * 1024.0f)), static_cast<std::int32_t>(std::lround(p.y() * 1024.0f))};
+}
+
+std::vector<PlaneTriangle> delaunay(const std::vector<GridPoint>& points) {
+  std::vector<PlaneTriangle> triangles;
   if (points.size() < 3) return triangles;
   std::vector<Site> sites;
   sites.reserve(points.size());
-  for (const auto& p : points) sites.emplace_back(static_cast<int>(std::lround(p.x() * kScale)), static_cast<int>(std::lround(p.y() * kScale)));
+  for (const auto& p : points) sites.emplace_back(p.x, p.y);
   Diagram diagram;
   boost::polygon::construct_voronoi(sites.begin(), sites.end(), &diagram);
 
@@ -34,9 +32,9 @@ std::vector<std::array<std::uint32_t, 3>> delaunay(const std::vector<Eigen::Vect
     for (const auto* edge = first->rot_next(); edge->rot_next() != first; edge = edge->rot_next()) {
       const auto b = static_cast<std::uint32_t>(edge->cell()->source_index());
       const auto c = static_cast<std::uint32_t>(edge->rot_next()->cell()->source_index());
-      const auto twice = area(sites[hub], sites[b], sites[c]);
-      if (twice > 0) triangles.push_back({hub, b, c});
-      else if (twice < 0) triangles.push_back({hub, c, b});
+      const auto area = twice_area(points[hub], points[b], points[c]);
+      if (area > 0) triangles.push_back({hub, b, c});
+      else if (area < 0) triangles.push_back({hub, c, b});
     }
   }
   return triangles;

@@ -6,11 +6,22 @@
 
 namespace ppm {
 
-/// Delaunay triangulation of points in the plane: indices of triangles with positive area (x1-x0)(y2-y0) - (x2-x0)(y1-y0) > 0.
-/// Points are rounded to 1/1024; of several that round to the same place all but the first are left out. The rounded points are
-/// triangulated exactly; where more than three lie on one empty circle (a grid), any of the triangulations is given, always the
-/// same for the same points. Coordinates must be within +-10^6.
+using PlaneTriangle = std::array<std::uint32_t, 3>;
+
+/// A point of the plane rounded to 1/1024, so that triangulations are exact. Coordinates must be within +-10^6.
+struct GridPoint {
+  std::int32_t x, y;
+  static GridPoint of(const Eigen::Vector2f& p);
+};
+/// Twice the signed area of a triangle, positive when x turns towards y; exact.
+inline std::int64_t twice_area(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+  return static_cast<std::int64_t>(b.x - a.x) * (c.y - a.y) - static_cast<std::int64_t>(c.x - a.x) * (b.y - a.y);
+}
+
+/// Delaunay triangulation: indices of triangles with positive area. Of several points at one place all but one are left out.
+/// Where more than three points lie on one empty circle (a grid), any of the triangulations is given, always the same for the
+/// same points.
 /// Source: Boost.Polygon's Voronoi diagram (Fortune's sweep line with exact predicates), of which this is the dual.
-std::vector<std::array<std::uint32_t, 3>> delaunay(const std::vector<Eigen::Vector2f>& points);
+std::vector<PlaneTriangle> delaunay(const std::vector<GridPoint>& points);
 
 }  // namespace ppm

@@ -10,7 +10,7 @@ namespace ppm {
 struct HoleSettings {
   int edges_most = 24;          ///< longer loops are left open
   float perimeter_most = 1.5f;  ///< m
-  float cosine_least = 0.5f;    ///< between a filling face and the mean normal of the loop
+  float cosine_least = 0.2f;    ///< between a filling face and the normals at its vertices
   SurfaceGate gate;
   float gate_sigmas = 4;        ///< a filling face is refused where the measurement at its centroid is farther behind it
 };

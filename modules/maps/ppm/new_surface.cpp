@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/maps/ppm/delaunay.hpp"
+#include "modules/maps/ppm/triangulation.hpp"
 
 namespace ppm {
 namespace {
@@ -93,12 +93,14 @@ class SurfaceMaker {
 
   void drop_corners_at_edges() {
     std::vector<std::uint32_t> ends;
-    for (std::uint32_t a = 0; a < node_of_.size(); ++a) {
-      if (node_of_[a] == kNone) continue;
-      boundary_.open_from(a, ends);
-      for (auto b : ends)
-        if (node_of_[b] != kNone)
-          drop_corners_along(nodes_[static_cast<std::size_t>(node_of_[a])].pixel, nodes_[static_cast<std::size_t>(node_of_[b])].pixel);
+    for (std::uint32_t a = 0; a < nodes_.size(); ++a) {
+      boundary_.open_from(nodes_[a].number, ends);
+      for (auto end : ends) {
+        if (node_of_[end] == kNone) continue;
+        const auto b = static_cast<std::uint32_t>(node_of_[end]);
+        rim_edges_.emplace_back(a, b);
+        drop_corners_along(nodes_[a].pixel, nodes_[b].pixel);
+      }
     }
   }
 
@@ -126,11 +128,13 @@ class SurfaceMaker {
   }
 
   void triangulate(std::vector<RimFace>& faces) {
-    std::vector<Eigen::Vector2f> pixels;
-    pixels.reserve(nodes_.size());
-    for (const auto& n : nodes_) pixels.push_back(n.pixel);
+    std::vector<GridPoint> points;
+    points.reserve(nodes_.size());
+    for (const auto& n : nodes_) points.push_back(GridPoint::of(n.pixel));
+    Triangulation plane(std::move(points));
+    for (const auto& [a, b] : rim_edges_) plane.keep_edge(a, b);
     const bool flip = view_.fx * view_.fy > 0;  // the image's second axis points down: positive area in it faces away
-    for (auto t : delaunay(pixels)) {
+    for (auto t : plane.triangles()) {
       if (flip) std::swap(t[1], t[2]);
       consider(t, faces);
     }
@@ -159,6 +163,7 @@ class SurfaceMaker {
   std::vector<int> kept_;             // [px] the corner there, or kNone
   std::vector<int> node_of_;          // by boundary vertex
   std::vector<Node> nodes_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rim_edges_;  // open edges between nodes
 };
 
 }  // namespace

@@ -14,9 +14,9 @@ struct NewSurfaceSettings {
   int smooth_radius = 2;          ///< px, of the smoothing of disparity that leaves are fitted to
   float smooth_sigmas = 3;
   float corner_sigmas = 3;        ///< a leaf's corner must fit its own pixel to so many sigmas
-  float gap_vertex_px = 0.9f;     ///< corners nearer to a boundary vertex are dropped, and ...
-  float gap_vertex_leaf = 0.35f;  ///< ... those nearer than so many leaf sizes
-  float gap_edge_px = 0.8f;       ///< corners nearer to a boundary edge are dropped
+  float gap_vertex_px = 0.7f;     ///< corners nearer to a boundary vertex are dropped, and ...
+  float gap_vertex_leaf = 0.25f;  ///< ... those nearer than so many leaf sizes
+  float gap_edge_px = 0.6f;       ///< corners nearer to a boundary edge are dropped
   TriangleSettings triangle;
 };
 

@@ -11,9 +11,7 @@ class NotchFiller {
  public:
   NotchFiller(const UpdateView& view, const std::vector<std::uint8_t>& classes, const NotchSettings& settings, Boundary& boundary,
               std::vector<RimFace>& faces)
-      : view_(view), classes_(classes), settings_(settings), boundary_(boundary), faces_(faces) {
-    settings_.triangle.own_share = 1;
-  }
+      : view_(view), classes_(classes), settings_(settings), boundary_(boundary), faces_(faces) {}
 
   void run() {
     const auto n = static_cast<std::uint32_t>(boundary_.vertex.size());
@@ -107,7 +105,7 @@ class NotchFiller {
 
   const UpdateView& view_;
   const std::vector<std::uint8_t>& classes_;
-  NotchSettings settings_;
+  const NotchSettings& settings_;
   Boundary& boundary_;
   std::vector<RimFace>& faces_;
   std::vector<std::vector<std::uint32_t>> into_, buckets_;  // starts of open edges into a vertex; vertices by cell of the image

@@ -18,8 +18,9 @@ Cell PpmMap::cell_of(const Eigen::Vector3f& p) const {
 }
 
 std::uint32_t PpmMap::divisions_for(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) const {
-  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(longest / settings_.texel_size_m), 1.0, double(settings_.max_divisions)));
+  const double area = 0.5 * (b - a).cross(c - a).norm();
+  const double edge = std::sqrt(area * 4.0 / std::sqrt(3.0));
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(edge / settings_.texel_size_m), 1.0, double(settings_.max_divisions)));
 }
 
 MapStats PpmMap::stats() const {

@@ -34,7 +34,8 @@ class PpmMap final : public Map {
   const ChunkTable<PpmChunk>& table() const { return table_; }
   std::uint32_t vertex_ids() const { return next_vertex_id_; }  ///< ids handed out so far
   Cell cell_of(const Eigen::Vector3f& p) const;
-  /// Divisions for a face with these corners: its longest edge over the texel size, rounded up, 1 .. max_divisions.
+  /// Divisions for a face with these corners: the edge of the equilateral triangle of its area over the texel size, rounded up,
+  /// 1 .. max_divisions. So a sliver gets the texels that its area deserves, wider apart along it than across.
   std::uint32_t divisions_for(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) const;
   /// By how many cells, at most, a chunk's faces reach out of its cell (an upper bound over the map's life).
   int reach() const { return reach_; }

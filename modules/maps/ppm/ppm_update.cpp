@@ -58,7 +58,10 @@ std::vector<std::uint8_t> wanted_pixels(const UpdateView& view, const std::vecto
 
 }  // namespace
 
-void UpdateSettings::share_gate() { texels.gate = surface.triangle.gate = notches.triangle.gate = holes.gate = gate; }
+void UpdateSettings::share() {
+  texels.gate = surface.triangle.gate = holes.gate = gate;
+  notches.triangle = surface.triangle;
+}
 
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame, const Prediction& prediction,
                                          const UpdateSettings& settings, std::int64_t frame_number, UpdateCounts* counts) {

@@ -24,8 +24,8 @@ struct UpdateSettings {
   NotchSettings notches;
   HoleSettings holes;
 
-  /// Gives every part the same gate.
-  void share_gate();
+  /// Gives every part the gate, and the notches the triangle test, that are set here.
+  void share();
 };
 
 /// What an update did.

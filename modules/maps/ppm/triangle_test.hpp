@@ -12,7 +12,7 @@ struct TriangleSettings {
   float gate_sigmas = 4;      ///< a sample fits when the measurement lies within so many gate spreads of the triangle's plane
   float fit_share = 0.75f;    ///< least share of samples that fit
   float own_share = 0.40f;    ///< most share of samples that the map explains already by their own hit
-  float cosine_least = 0.3f;  ///< least cosine between the triangle's normal and the line of sight to its centroid
+  float cosine_least = 0.2f;  ///< least cosine between the triangle's normal and the line of sight to its centroid
 };
 
 /// Whether a triangle that is proposed as new surface agrees with the image: samples are the pixels inside it, its centroid and
