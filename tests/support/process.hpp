@@ -20,20 +20,20 @@ class Process {
  public:
   /// argv[0] is the program's path.
   explicit Process(std::vector<std::string> argv) {
-    int out[2], err[2];
-    if (::pipe2(out, O_CLOEXEC) != 0 || ::pipe2(err, O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
+    int out_pipe[2], err_pipe[2];
+    if (::pipe2(out_pipe, O_CLOEXEC) != 0 || ::pipe2(err_pipe, O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
-    ::posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions, out_pipe[1], STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions, err_pipe[1], STDERR_FILENO);
     std::vector<char*> args;
     for (auto& a : argv) args.push_back(a.data());
     args.push_back(nullptr);
     const int error = ::posix_spawn(&pid_, args[0], &actions, nullptr, args.data(), environ);
     ::posix_spawn_file_actions_destroy(&actions);
-    ::close(out[1]);
-    ::close(err[1]);
-    fds_ = {out[0], err[0]};
+    ::close(out_pipe[1]);
+    ::close(err_pipe[1]);
+    fds_ = {out_pipe[0], err_pipe[0]};
     if (error != 0) throw std::runtime_error("cannot start " + argv[0]);
   }
   ~Process() {
@@ -46,7 +46,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  void send(int signal) const { ::kill(pid_, signal); }
+  void send(int number) const { ::kill(pid_, number); }
   /// Reads until the child ends.
   void wait() {
     std::array<pollfd, 2> polls{pollfd{fds_[0], POLLIN, 0}, pollfd{fds_[1], POLLIN, 0}};
