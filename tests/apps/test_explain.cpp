@@ -34,6 +34,7 @@ TEST_CASE("describe tells parameters with units, as text and as a page") {
   CHECK(wrong->code == 2);
   CHECK_THAT(wrong->err, Contains("did you mean 'motion.constant_velocity'?"));
   CHECK_THAT(ppm_command({"describe", "zzz"})->err, Contains("ppm list"));
+  CHECK_THAT(ppm_command({"describe"})->err, Contains("MODULE or --pages FOLDER"));
 }
 
 TEST_CASE("schema is JSON that knows every module") {

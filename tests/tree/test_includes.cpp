@@ -55,7 +55,7 @@ bool allowed(const std::string& from, const std::string& to) {
   if (from == to) return true;
   if (auto it = framework.find(from); it != framework.end()) return it->second.contains(to);
   if (to.starts_with("framework/")) return true;
-  if (from == "apps") return to == "modules";  // the list of built-in modules
+  if (from == "apps" && to == "modules") return true;  // the list of built-in modules
   return !from.starts_with("modules/maps/") && to.starts_with("modules/maps/");
 }
 
