@@ -1,4 +1,5 @@
-// Pages and schema are made from the code: what is in the tree must be what the code says now.
+// Pages and schema are made from the code: what is in the tree must be what the code says now (the build target `pages`
+// makes them anew).
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
