@@ -1,0 +1,253 @@
+// What a view of a mesh map costs by ray casting, and what the acceleration structures cost: docs/results/embree_scenes.md.
+#include <benchmark/benchmark.h>
+#include <embree3/rtcore.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "framework/core/rng.hpp"
+#include "framework/core/se3.hpp"
+#include "modules/prediction/embree_scenes.hpp"
+#include "modules/prediction/embree_view.hpp"
+#include "tests/support/mesh_map.hpp"
+
+using namespace ppm;
+using test::TriangleMesh;
+
+namespace {
+
+const Camera kCamera{176, 144, 150, 150, 87.5, 71.5};
+
+// A grid of n x n squares over the parallelogram o + s a + t b; free space lies on the side of a x b. Bumps of 2 cm.
+void add_patch(TriangleMesh& mesh, Eigen::Vector3f o, Eigen::Vector3f a, Eigen::Vector3f b, float edge) {
+  const int na = static_cast<int>(std::ceil(a.norm() / edge)), nb = static_cast<int>(std::ceil(b.norm() / edge));
+  const Eigen::Vector3f normal = a.cross(b).normalized();
+  const auto first = static_cast<std::uint32_t>(mesh.position.size());
+  auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(j * (na + 1) + i); };
+  for (int j = 0; j <= nb; ++j)
+    for (int i = 0; i <= na; ++i) {
+      const Eigen::Vector3f p = o + static_cast<float>(i) / static_cast<float>(na) * a + static_cast<float>(j) / static_cast<float>(nb) * b;
+      mesh.position.push_back(p + 0.02f * std::sin(7 * p.sum()) * normal);
+    }
+  for (int j = 0; j < nb; ++j)
+    for (int i = 0; i < na; ++i) {
+      mesh.face.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+      mesh.face.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+}
+
+// The six sides of a box, seen from outside, or from inside.
+void add_box(TriangleMesh& mesh, Eigen::Vector3f o, Eigen::Vector3f size, float edge, bool inside) {
+  for (int k = 0; k < 3; ++k) {
+    Eigen::Vector3f a = Eigen::Vector3f::Zero(), b = a, c = a;
+    a[(k + 1) % 3] = size[(k + 1) % 3];
+    b[(k + 2) % 3] = size[(k + 2) % 3];
+    c[k] = size[k];
+    add_patch(mesh, o, inside ? a : b, inside ? b : a, edge);
+    add_patch(mesh, o + c, inside ? b : a, inside ? a : b, edge);
+  }
+}
+
+// A room of 6 x 5 x 2.7 m with ten boxes, about `faces` triangles, cut into cells of `cell_m`.
+std::shared_ptr<const PpmMap> room(int faces, double cell_m) {
+  static std::map<std::pair<int, double>, std::shared_ptr<const PpmMap>> made;
+  auto& map = made[{faces, cell_m}];
+  if (map) return map;
+  const float edge = std::sqrt(2 * 150.f / static_cast<float>(faces));
+  TriangleMesh mesh;
+  add_box(mesh, {0, 0, 0}, {6, 5, 2.7f}, edge, true);
+  Rng rng(5, 0, 0, 0);
+  for (int i = 0; i < 10; ++i) {
+    auto u = [&](double a, double b) { return static_cast<float>(a + (b - a) * rng.uniform()); };
+    add_box(mesh, {u(0.2, 5), u(0.2, 4), 0.1f}, {u(0.3, 0.9), u(0.3, 0.9), u(0.3, 1.2)}, edge, false);
+  }
+  PpmSettings settings;
+  settings.cell_size_m = cell_m;
+  return map = test::make_map(mesh, settings);
+}
+
+Pose pose(int i) {
+  const double angle = 0.3 * i;
+  Pose look = Pose::Identity();
+  look.translation() << 3 + std::cos(angle), 2.5 + std::sin(angle), 1.5;
+  Eigen::Matrix3d R;
+  R.col(2) = Eigen::Vector3d(std::cos(angle), std::sin(angle), -0.2).normalized();
+  R.col(0) = R.col(2).cross(Eigen::Vector3d::UnitZ()).normalized();
+  R.col(1) = R.col(2).cross(R.col(0));
+  look.linear() = R;
+  return look;
+}
+
+void report(benchmark::State& state, std::size_t hits) {
+  state.counters["Mray/s"] = benchmark::Counter(1e-6 * kCamera.pixels() * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["hit"] = static_cast<double>(hits) / kCamera.pixels();
+}
+
+// Own traversal of the chunks' scenes: what prediction.embree does, hits and texels read.
+void view(benchmark::State& state, EmbreeViewOptions options, EmbreeOptions scene, double cell_m) {
+  const auto map = room(static_cast<int>(state.range(0)), cell_m);
+  const Workers workers(1);
+  EmbreeScenes scenes(scene);
+  scenes.update({map.get()}, workers);
+  Prediction out;
+  int i = 0;
+  for (auto _ : state) {
+    out.reset(kCamera, 1, pose(i++ % 20));
+    trace_view(*map, scenes.of(*map), options, out);
+    benchmark::DoNotOptimize(out.range.data());
+  }
+  std::size_t hits = 0;
+  for (std::size_t p = 0; p < out.range.size(); ++p) hits += out.hit(p);
+  report(state, hits);
+  state.counters["chunks"] = static_cast<double>(map->table().size());
+  state.counters["MB"] = static_cast<double>(scenes.bytes()) / 1e6;
+}
+
+// The alternative: one scene of instances of the chunks' scenes for each map. Ranges and ids only, no texels.
+class InstanceScene {
+ public:
+  InstanceScene(RTCDevice device, const std::vector<std::unique_ptr<EmbreeScene>>& chunks) : scene_(rtcNewScene(device)) {
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+      if (!chunks[i]) continue;
+      RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(instance, chunks[i]->handle());
+      rtcCommitGeometry(instance);
+      rtcAttachGeometryByID(scene_, instance, static_cast<unsigned>(i));
+      rtcReleaseGeometry(instance);
+    }
+    rtcCommitScene(scene_);
+  }
+  InstanceScene(const InstanceScene&) = delete;
+  InstanceScene& operator=(const InstanceScene&) = delete;
+  ~InstanceScene() { rtcReleaseScene(scene_); }
+
+  void trace(Prediction& out) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(64) int valid[16];
+    std::fill(valid, valid + 16, -1);
+    RTCRayHit16 r;
+    const Eigen::Vector3f o = out.T_map_camera.translation().cast<float>();
+    const Eigen::Matrix3f R = out.T_map_camera.linear().cast<float>();
+    for (int y = 0; y < kCamera.rows; y += 4)
+      for (int x = 0; x < kCamera.cols; x += 4) {
+        for (int i = 0; i < 16; ++i) {
+          const Eigen::Vector3f d = (R * kCamera.ray(x + i % 4, y + i / 4).cast<float>()).normalized();
+          r.ray.org_x[i] = o.x(), r.ray.org_y[i] = o.y(), r.ray.org_z[i] = o.z();
+          r.ray.dir_x[i] = d.x(), r.ray.dir_y[i] = d.y(), r.ray.dir_z[i] = d.z();
+          r.ray.tnear[i] = r.ray.time[i] = 0;
+          r.ray.tfar[i] = Prediction::kMiss;
+          r.ray.mask[i] = 0xffffffffu;
+          r.ray.id[i] = r.ray.flags[i] = 0;
+          r.hit.geomID[i] = r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        rtcIntersect16(valid, scene_, &context, &r);
+        for (int i = 0; i < 16; ++i) {
+          const auto p = static_cast<std::size_t>((y + i / 4) * kCamera.cols + x + i % 4);
+          out.range[p] = r.ray.tfar[i];
+          out.chunk[p] = r.hit.instID[0][i];
+          out.face[p] = r.hit.primID[i];
+        }
+      }
+  }
+
+ private:
+  RTCScene scene_;
+};
+
+std::vector<std::unique_ptr<EmbreeScene>> chunk_scenes(const EmbreeDevice& device, const PpmMap& map) {
+  std::vector<std::unique_ptr<EmbreeScene>> scenes;
+  for (const auto& chunk : map.table().chunks())
+    scenes.push_back(chunk.geometry->face.empty() ? nullptr : std::make_unique<EmbreeScene>(device, *chunk.geometry));
+  return scenes;
+}
+
+void instanced_view(benchmark::State& state, double cell_m) {
+  const auto map = room(static_cast<int>(state.range(0)), cell_m);
+  const EmbreeDevice device({});
+  const auto chunks = chunk_scenes(device, *map);
+  const InstanceScene top(device.handle(), chunks);
+  Prediction out;
+  int i = 0;
+  for (auto _ : state) {
+    out.reset(kCamera, 1, pose(i++ % 20));
+    top.trace(out);
+    benchmark::DoNotOptimize(out.range.data());
+  }
+  std::size_t hits = 0;
+  for (std::size_t p = 0; p < out.range.size(); ++p) hits += out.hit(p);
+  report(state, hits);
+}
+
+void instance_build(benchmark::State& state, double cell_m) {
+  const auto map = room(static_cast<int>(state.range(0)), cell_m);
+  const EmbreeDevice device({});
+  const auto chunks = chunk_scenes(device, *map);
+  for (auto _ : state) InstanceScene top(device.handle(), chunks);
+}
+
+// Builds every chunk's scene. range(1): threads.
+void build(benchmark::State& state, EmbreeOptions::Build quality) {
+  const auto map = room(static_cast<int>(state.range(0)), 1.0);
+  const Workers workers(static_cast<int>(state.range(1)));
+  EmbreeOptions options;
+  options.build = quality;
+  EmbreeScenes scenes(options);
+  for (auto _ : state) {
+    scenes.update({}, workers);
+    scenes.update({map.get()}, workers);
+  }
+  state.counters["us/chunk"] = benchmark::Counter(1e-6 * static_cast<double>(state.iterations() * scenes.size()),
+                                                  benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+// What update() costs when nothing is new: `range(1)` maps that share all chunks.
+void nothing_new(benchmark::State& state) {
+  const auto map = room(static_cast<int>(state.range(0)), 1.0);
+  const Workers workers(1);
+  std::vector<std::shared_ptr<const PpmMap>> copies;
+  std::vector<const PpmMap*> maps;
+  for (int i = 0; i < state.range(1); ++i) maps.push_back(copies.emplace_back(std::make_shared<const PpmMap>(*map)).get());
+  EmbreeScenes scenes({});
+  for (auto _ : state) scenes.update(maps, workers);
+}
+
+void register_all() {
+  using benchmark::RegisterBenchmark;
+  auto add = [](const std::string& name, auto f) {
+    return RegisterBenchmark(name.c_str(), f)->Unit(benchmark::kMillisecond)->UseRealTime();
+  };
+  auto add_view = [&](const std::string& name, EmbreeViewOptions v, EmbreeOptions s, double cell) {
+    add(name, [=](benchmark::State& st) { view(st, v, s, cell); })->Arg(20000)->Arg(100000);
+  };
+  for (int packet : {1, 4, 8, 16}) add_view("chunks_1m/packet:" + std::to_string(packet), {packet, true, false}, {}, 1.0);
+  add_view("chunks_1m/incoherent", {16, false, false}, {}, 1.0);
+  add_view("chunks_1m/fast_test", {16, true, false}, {false, true, {}}, 1.0);
+  add_view("chunks_1m/backfaces_hit", {16, true, false}, {true, false, {}}, 1.0);
+  add_view("chunks_1m/linear_texels", {16, true, true}, {}, 1.0);
+  add_view("chunks_1m/build_low", {16, true, false}, {true, true, EmbreeOptions::Build::low}, 1.0);
+  add_view("chunks_1m/build_high", {16, true, false}, {true, true, EmbreeOptions::Build::high}, 1.0);
+  for (double cell : {0.5, 2.0, 50.0}) add_view("chunks_" + std::to_string(cell).substr(0, 4) + "m", {}, {}, cell);
+  for (double cell : {0.5, 1.0}) {
+    const std::string m = std::to_string(cell).substr(0, 3) + "m";
+    add("instances_" + m, [=](benchmark::State& st) { instanced_view(st, cell); })->Arg(20000)->Arg(100000);
+    add("instances_build_" + m, [=](benchmark::State& st) { instance_build(st, cell); })->Arg(20000)->Arg(100000);
+  }
+  using Build = EmbreeOptions::Build;
+  for (auto [name, quality] : {std::pair{"low", Build::low}, {"medium", Build::medium}, {"high", Build::high}})
+    add(std::string("build/") + name, [q = quality](benchmark::State& st) { build(st, q); })->Args({100000, 1})->Args({100000, 2});
+  add("update_nothing_new", nothing_new)->Args({100000, 1})->Args({100000, 100});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  register_all();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}
