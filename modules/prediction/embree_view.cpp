@@ -56,6 +56,8 @@ T* lanes(T (&array)[n]) {
 
 template <int N>
 class ViewTracer {
+  using P = Packet<N>;
+
  public:
   ViewTracer(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
              Prediction& out)
@@ -63,10 +65,23 @@ class ViewTracer {
     rtcInitIntersectContext(&context_);
     context_.flags = options.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     const Eigen::Matrix3d R = out.T_map_camera.linear();
-    origin_ = out.T_map_camera.translation().cast<float>();
     per_x_ = (R.col(0) / out.camera.fx).cast<float>();
     per_y_ = (R.col(1) / out.camera.fy).cast<float>();
     corner_ = (R * out.camera.ray(0, 0)).cast<float>();
+    const Eigen::Vector3f origin = out.T_map_camera.translation().cast<float>();
+    auto& ray = packet_.ray;
+    for (int i = 0; i < N; ++i) {
+      lane_x_[i] = static_cast<float>(i % P::cols);
+      lane_y_[i] = static_cast<float>(i / P::cols);
+      lanes(ray.org_x)[i] = origin.x();
+      lanes(ray.org_y)[i] = origin.y();
+      lanes(ray.org_z)[i] = origin.z();
+      lanes(ray.tnear)[i] = 0.f;
+      lanes(ray.time)[i] = 0.f;
+      lanes(ray.mask)[i] = 0xffffffffu;
+      lanes(ray.id)[i] = 0;
+      lanes(ray.flags)[i] = 0;
+    }
   }
 
   void trace() {
@@ -83,41 +98,44 @@ class ViewTracer {
   }
 
  private:
-  using P = Packet<N>;
-
   void trace_tile(int x0, int y0, const std::vector<VisibleChunk>& chunks) {
     for (int y = y0; y < std::min(y0 + kTile, out_.camera.rows); y += P::rows)
       for (int x = x0; x < std::min(x0 + kTile, out_.camera.cols); x += P::cols) {
         start(x, y);
         intersect(x, y, chunks);
-        read_hits();
+        read_hits(x, y);
       }
   }
 
-  // Sets up the rays of the packet whose first pixel is (x, y); lanes outside the image are off.
+  // Points the rays at the packet's pixels, of which (x, y) is the first; lanes outside the image are off.
   void start(int x, int y) {
-    auto& ray = packet_.ray;
+    float *dir_x = lanes(packet_.ray.dir_x), *dir_y = lanes(packet_.ray.dir_y), *dir_z = lanes(packet_.ray.dir_z);
+    float* tfar = lanes(packet_.ray.tfar);
+    const Eigen::Vector3f first = corner_ + static_cast<float>(x) * per_x_ + static_cast<float>(y) * per_y_;
     for (int i = 0; i < N; ++i) {
-      const int px = x + i % P::cols, py = y + i / P::cols;
-      const bool inside = px < out_.camera.cols && py < out_.camera.rows;
+      const float dx = first.x() + lane_x_[i] * per_x_.x() + lane_y_[i] * per_y_.x();
+      const float dy = first.y() + lane_x_[i] * per_x_.y() + lane_y_[i] * per_y_.y();
+      const float dz = first.z() + lane_x_[i] * per_x_.z() + lane_y_[i] * per_y_.z();
+      const float scale = 1.f / std::sqrt(dx * dx + dy * dy + dz * dz);
+      dir_x[i] = dx * scale;
+      dir_y[i] = dy * scale;
+      dir_z[i] = dz * scale;
+    }
+    const int right = out_.camera.cols - x, bottom = out_.camera.rows - y;
+    for (int i = 0; i < N; ++i) {
+      const bool inside = i % P::cols < right && i / P::cols < bottom;
       valid_[i] = inside ? -1 : 0;
-      pixel_[i] = static_cast<std::size_t>(py) * static_cast<std::size_t>(out_.camera.cols) + static_cast<std::size_t>(px);
-      const Eigen::Vector3f d =
-          (corner_ + static_cast<float>(px) * per_x_ + static_cast<float>(py) * per_y_).normalized();
-      lanes(ray.org_x)[i] = origin_.x();
-      lanes(ray.org_y)[i] = origin_.y();
-      lanes(ray.org_z)[i] = origin_.z();
-      lanes(ray.dir_x)[i] = d.x();
-      lanes(ray.dir_y)[i] = d.y();
-      lanes(ray.dir_z)[i] = d.z();
-      lanes(ray.tnear)[i] = 0.f;
-      lanes(ray.tfar)[i] = inside ? Prediction::kMiss : -1.f;
-      lanes(ray.time)[i] = 0.f;
-      lanes(ray.mask)[i] = 0xffffffffu;
-      lanes(ray.id)[i] = 0;
-      lanes(ray.flags)[i] = 0;
+      tfar[i] = inside ? Prediction::kMiss : -1.f;
       chunk_[i] = Prediction::kNone;
     }
+  }
+
+  static float largest(const float* values) {
+    float reduced[N];
+    std::copy(values, values + N, reduced);
+    for (int width = N / 2; width > 0; width /= 2)
+      for (int i = 0; i < width; ++i) reduced[i] = std::max(reduced[i], reduced[i + width]);
+    return reduced[0];
   }
 
   void intersect(int x, int y, const std::vector<VisibleChunk>& chunks) {
@@ -125,7 +143,7 @@ class ViewTracer {
     unsigned* hit = lanes(packet_.hit.geomID);
     for (const auto& c : chunks) {
       if (!c.meets(x, y, x + P::cols - 1, y + P::rows - 1)) continue;
-      if (c.distance > *std::max_element(tfar, tfar + N)) break;  // nothing further can be nearer than the hits
+      if (c.distance > largest(tfar)) break;  // nothing further can be nearer than the hits
       std::fill(hit, hit + N, RTC_INVALID_GEOMETRY_ID);
       P::intersect(valid_, scenes_[c.chunk]->handle(), &context_, &packet_);
       for (int i = 0; i < N; ++i)
@@ -133,24 +151,36 @@ class ViewTracer {
     }
   }
 
-  void read_hits() {
+  // Unit normals of the hits, turned towards the camera; side_: -1 where that turned them. Lanes without a hit hold rubbish.
+  void turn_normals() {
+    float *nx = lanes(packet_.hit.Ng_x), *ny = lanes(packet_.hit.Ng_y), *nz = lanes(packet_.hit.Ng_z);
+    const float *dx = lanes(packet_.ray.dir_x), *dy = lanes(packet_.ray.dir_y), *dz = lanes(packet_.ray.dir_z);
+    for (int i = 0; i < N; ++i) {
+      side_[i] = nx[i] * dx[i] + ny[i] * dy[i] + nz[i] * dz[i] > 0.f ? -1.f : 1.f;
+      const float scale = side_[i] / std::sqrt(nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i]);
+      nx[i] *= scale;
+      ny[i] *= scale;
+      nz[i] *= scale;
+    }
+  }
+
+  void read_hits(int x, int y) {
     const auto& h = packet_.hit;
+    turn_normals();
     for (int i = 0; i < N; ++i) {
       if (chunk_[i] == Prediction::kNone) continue;
-      const std::size_t p = pixel_[i];
+      const auto p = static_cast<std::size_t>((y + i / P::cols) * out_.camera.cols + x + i % P::cols);
       const std::uint32_t f = lanes(h.primID)[i];
       const float u = lanes(h.u)[i], v = lanes(h.v)[i];
       const PpmChunk& chunk = map_.table()[chunk_[i]];
       const TexelSample texel = options_.linear_texels ? linear_sample(*chunk.geometry, *chunk.texels, f, u, v)
                                                        : nearest_sample(*chunk.geometry, *chunk.texels, f, u, v);
-      Eigen::Vector3f n = Eigen::Vector3f(lanes(h.Ng_x)[i], lanes(h.Ng_y)[i], lanes(h.Ng_z)[i]).normalized();
-      const Eigen::Vector3f d(lanes(packet_.ray.dir_x)[i], lanes(packet_.ray.dir_y)[i], lanes(packet_.ray.dir_z)[i]);
-      const float side = n.dot(d) > 0.f ? -1.f : 1.f;  // a face seen from behind: its normal turns, and with it the mean's sign
-      n *= side;
       out_.range[p] = lanes(packet_.ray.tfar)[i];
-      out_.mean[p] = side * texel.mean;
+      out_.mean[p] = side_[i] * texel.mean;  // along the turned normal
       out_.variance[p] = texel.variance;
-      for (int k = 0; k < 3; ++k) out_.normal[3 * p + static_cast<std::size_t>(k)] = n[k];
+      out_.normal[3 * p] = lanes(h.Ng_x)[i];
+      out_.normal[3 * p + 1] = lanes(h.Ng_y)[i];
+      out_.normal[3 * p + 2] = lanes(h.Ng_z)[i];
       out_.chunk[p] = chunk_[i];
       out_.face[p] = f;
       out_.bary[2 * p] = u;
@@ -163,10 +193,11 @@ class ViewTracer {
   const EmbreeViewOptions& options_;
   Prediction& out_;
   RTCIntersectContext context_;
-  Eigen::Vector3f origin_, corner_, per_x_, per_y_;  // direction of pixel (x, y) before it is made unit: corner + x per_x + y per_y
+  Eigen::Vector3f corner_, per_x_, per_y_;  // direction of pixel (x, y) before it is made unit: corner + x per_x + y per_y
+  float lane_x_[N], lane_y_[N];             // pixels of a packet from its first
   typename P::RayHit packet_;
   alignas(64) int valid_[N];
-  std::size_t pixel_[N];
+  float side_[N];
   std::uint32_t chunk_[N];
 };
 

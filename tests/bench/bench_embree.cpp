@@ -232,7 +232,7 @@ void register_all() {
   add_view("chunks_1m/build_low", {16, true, false}, {true, true, EmbreeOptions::Build::low}, 1.0);
   add_view("chunks_1m/build_high", {16, true, false}, {true, true, EmbreeOptions::Build::high}, 1.0);
   for (double cell : {0.5, 2.0, 50.0}) add_view("chunks_" + std::to_string(cell).substr(0, 4) + "m", {}, {}, cell);
-  for (double cell : {0.5, 1.0}) {
+  for (double cell : {0.5, 1.0, 50.0}) {
     const std::string m = std::to_string(cell).substr(0, 3) + "m";
     add("instances_" + m, [=](benchmark::State& st) { instanced_view(st, cell); })->Arg(20000)->Arg(100000);
     add("instances_build_" + m, [=](benchmark::State& st) { instance_build(st, cell); })->Arg(20000)->Arg(100000);

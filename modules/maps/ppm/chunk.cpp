@@ -43,22 +43,4 @@ std::uint64_t next_geometry_id() {
   return last.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
-std::uint32_t nearest_texel(std::uint32_t n, float u, float v) {
-  // Round the three barycentric coordinates to the grid; the one that was rounded most follows from the other two.
-  const auto steps = static_cast<float>(n);
-  const float x = std::clamp(u, 0.0f, 1.0f) * steps;
-  const float y = std::clamp(v, 0.0f, 1.0f - x / steps) * steps;
-  const float z = std::max(steps - x - y, 0.0f);
-  float i = std::round(x), j = std::round(y);
-  const float k = std::round(z);
-  const float di = std::abs(i - x), dj = std::abs(j - y), dk = std::abs(k - z);
-  if (di > dj && di > dk)
-    i = steps - j - k;
-  else if (dj > dk)
-    j = steps - i - k;
-  i = std::clamp(i, 0.0f, steps);
-  j = std::clamp(j, 0.0f, steps - i);
-  return texel_index(n, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-}
-
 }  // namespace ppm

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/core/cow.hpp"
+#include "modules/maps/ppm/texel_grid.hpp"
 
 namespace ppm {
 
@@ -46,13 +47,6 @@ struct Texels {
   std::vector<FaceEvidence> evidence;  ///< [F]
   std::int64_t bytes() const;
 };
-
-/// Texels of a face with n divisions: (n+1)(n+2)/2. Texel (i, j), 0 <= i, j, i+j <= n, lies at u = i/n, v = j/n.
-constexpr std::uint32_t texel_count(std::uint32_t n) { return (n + 1) * (n + 2) / 2; }
-/// Position of texel (i, j) within the face's texels.
-constexpr std::uint32_t texel_index(std::uint32_t n, std::uint32_t i, std::uint32_t j) { return i * (n + 1) - i * (i - 1) / 2 + j; }
-/// The texel nearest to barycentric (u, v).
-std::uint32_t nearest_texel(std::uint32_t n, float u, float v);
 
 struct PpmChunk {
   Cow<Geometry> geometry;

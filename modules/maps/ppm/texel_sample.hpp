@@ -10,10 +10,23 @@ struct TexelSample {
 };
 
 /// The texel nearest to barycentric (u, v) of face f.
-TexelSample nearest_sample(const Geometry& geometry, const Texels& texels, std::uint32_t f, float u, float v);
+inline TexelSample nearest_sample(const Geometry& geometry, const Texels& texels, std::uint32_t f, float u, float v) {
+  const auto t = geometry.first_texel[f] + nearest_texel(geometry.divisions[f], u, v);
+  return {texels.mean[t], texels.variance[t]};
+}
 
 /// Mean and variance interpolated linearly over the small triangle of texels around (u, v). The variance is interpolated like
 /// the mean: neighbours see the same surface with much the same error, so averaging them does not lower it.
-TexelSample linear_sample(const Geometry& geometry, const Texels& texels, std::uint32_t f, float u, float v);
+inline TexelSample linear_sample(const Geometry& geometry, const Texels& texels, std::uint32_t f, float u, float v) {
+  const TexelTriangle t = texel_triangle(geometry.divisions[f], u, v);
+  const float* mean = &texels.mean[geometry.first_texel[f]];
+  const float* variance = &texels.variance[geometry.first_texel[f]];
+  TexelSample s;
+  for (int k = 0; k < 3; ++k) {
+    s.mean += t.weight[k] * mean[t.texel[k]];
+    s.variance += t.weight[k] * variance[t.texel[k]];
+  }
+  return s;
+}
 
 }  // namespace ppm
