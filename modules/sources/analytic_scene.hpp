@@ -23,8 +23,8 @@ struct SceneObject {
   std::uint32_t first = 0, end = 0;
 };
 
-/// A world of solids, with exact answers to where a ray ends and how far the nearest surface is. Immutable. Solids may touch
-/// and overlap. Made by SceneBuilder.
+/// A world of solids, with exact answers to where a ray ends and how far the nearest surface is. Immutable. Solids may
+/// touch and overlap. Made by SceneBuilder.
 class AnalyticScene {
  public:
   AnalyticScene(std::vector<Solid> solids, std::vector<SceneObject> objects);
@@ -33,8 +33,10 @@ class AnalyticScene {
   /// Where two surfaces coincide, the solid with the lower index is hit.
   SceneHit cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
   /// The same among a few solids, for rays that are known to see no other.
-  SceneHit cast_among(const std::vector<std::uint32_t>& among, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
-  /// Distance from a point to the nearest surface, m; negative inside a solid (where solids overlap, only the sign is exact).
+  SceneHit cast_among(const std::vector<std::uint32_t>& among, const Eigen::Vector3d& origin,
+                      const Eigen::Vector3d& direction) const;
+  /// Distance from a point to the nearest surface, m; negative inside a solid (where solids overlap, only the sign is
+  /// exact).
   double distance(const Eigen::Vector3d& p) const;
 
   const std::vector<Solid>& solids() const { return solids_; }

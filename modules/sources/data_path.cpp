@@ -33,7 +33,9 @@ std::filesystem::path data_folder(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(folder, error)) return folder;
   const char* hint = folder == path ? "" : " (the environment variable PPM_DATA says where data is)";
-  throw DataError(folder.string(), std::string(std::filesystem::exists(folder, error) ? "is no folder" : "there is no such folder") + hint);
+  throw DataError(
+      folder.string(),
+      std::string(std::filesystem::exists(folder, error) ? "is no folder" : "there is no such folder") + hint);
 }
 
 }  // namespace ppm

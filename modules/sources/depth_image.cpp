@@ -23,7 +23,8 @@ void read_color_image(const std::filesystem::path& file, Frame& frame) {
   RgbImage image = read_rgb_image(file, frame.index);
   if (image.cols != frame.camera.cols || image.rows != frame.camera.rows)
     throw DataError(file.string(), frame.index,
-                    fmt::format("is {}x{} pixels; its depth image is {}x{}", image.cols, image.rows, frame.camera.cols, frame.camera.rows));
+                    fmt::format("is {}x{} pixels; its depth image is {}x{}", image.cols, image.rows, frame.camera.cols,
+                                frame.camera.rows));
   frame.color = std::move(image.pixels);
 }
 

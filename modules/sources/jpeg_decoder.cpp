@@ -1,20 +1,18 @@
 #include "modules/sources/jpeg_decoder.hpp"
 
-#include <fmt/core.h>
-
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>
-
-#include <jpeglib.h>  // needs <cstdio> above it
+#include <fmt/core.h>
+#include <jpeglib.h>
 
 #include "modules/sources/image_file.hpp"
 
 namespace ppm {
 namespace {
 
-/// libjpeg's state for one image. Errors come back by longjmp, as in png_decoder.cpp: the functions that call libjpeg hold no
-/// object with a destructor.
+/// libjpeg's state for one image. Errors come back by longjmp, as in png_decoder.cpp: the functions that call libjpeg
+/// hold no object with a destructor.
 struct JpegReader {
   JpegReader() {
     info.err = jpeg_std_error(&errors);

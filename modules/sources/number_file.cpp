@@ -1,9 +1,8 @@
 #include "modules/sources/number_file.hpp"
 
-#include <fmt/core.h>
-
 #include <charconv>
 #include <cmath>
+#include <fmt/core.h>
 #include <sstream>
 
 #include "modules/sources/file_bytes.hpp"
@@ -25,7 +24,8 @@ std::vector<std::string> split_words(std::string_view line) {
   return words;
 }
 
-std::vector<double> read_numbers(const std::filesystem::path& file, std::optional<std::int64_t> frame, std::size_t count) {
+std::vector<double> read_numbers(const std::filesystem::path& file, std::optional<std::int64_t> frame,
+                                 std::size_t count) {
   std::vector<double> numbers;
   for (const auto& word : split_words(read_bytes(file, frame))) {
     auto number = parse_number(word);
@@ -33,7 +33,8 @@ std::vector<double> read_numbers(const std::filesystem::path& file, std::optiona
     if (!std::isfinite(*number)) throw_data_error(file, frame, fmt::format("'{}' is not a finite number", word));
     numbers.push_back(*number);
   }
-  if (numbers.size() != count) throw_data_error(file, frame, fmt::format("has {} numbers; it must have {}", numbers.size(), count));
+  if (numbers.size() != count)
+    throw_data_error(file, frame, fmt::format("has {} numbers; it must have {}", numbers.size(), count));
   return numbers;
 }
 

@@ -1,20 +1,19 @@
 #include "modules/sources/png_decoder.hpp"
 
-#include <fmt/core.h>
-#include <png.h>
-
 #include <bit>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <fmt/core.h>
+#include <png.h>
 
 #include "modules/sources/image_file.hpp"
 
 namespace ppm {
 namespace {
 
-/// libpng's state for one image. libpng reports errors by longjmp, so the functions that call it (read_header, read_rows) hold
-/// no object with a destructor: all that must be freed lives here, above them.
+/// libpng's state for one image. libpng reports errors by longjmp, so the functions that call it (read_header,
+/// read_rows) hold no object with a destructor: all that must be freed lives here, above them.
 struct PngReader {
   explicit PngReader(const std::string& file_bytes) : data(file_bytes.data()), size(file_bytes.size()) {
     png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
@@ -77,10 +76,17 @@ bool read_rows(PngReader& r, png_bytepp rows) {
 std::string kind_of(const PngReader& r) {
   const char* color = "colour";
   switch (png_get_color_type(r.png, r.info)) {
-    case PNG_COLOR_TYPE_GRAY: color = "gray"; break;
-    case PNG_COLOR_TYPE_GRAY_ALPHA: color = "gray with alpha"; break;
-    case PNG_COLOR_TYPE_PALETTE: color = "palette"; break;
-    default: break;
+    case PNG_COLOR_TYPE_GRAY:
+      color = "gray";
+      break;
+    case PNG_COLOR_TYPE_GRAY_ALPHA:
+      color = "gray with alpha";
+      break;
+    case PNG_COLOR_TYPE_PALETTE:
+      color = "palette";
+      break;
+    default:
+      break;
   }
   return fmt::format("{}-bit {}", png_get_bit_depth(r.png, r.info), color);
 }
@@ -96,7 +102,8 @@ PngImage decode_png(const std::string& file_bytes, PngFormat format) {
   };
   if (!r.info) return fail("libpng cannot start");
   if (file_bytes.empty()) return fail("is empty");
-  if (png_sig_cmp(reinterpret_cast<png_const_bytep>(r.data), 0, std::min<std::size_t>(8, r.size)) != 0) return fail("is no PNG image");
+  if (png_sig_cmp(reinterpret_cast<png_const_bytep>(r.data), 0, std::min<std::size_t>(8, r.size)) != 0)
+    return fail("is no PNG image");
   if (!read_header(r, format)) return fail(fmt::format("is a broken PNG image: {}", r.message));
   if (format == PngFormat::gray16 &&
       (png_get_bit_depth(r.png, r.info) != 16 || png_get_color_type(r.png, r.info) != PNG_COLOR_TYPE_GRAY))

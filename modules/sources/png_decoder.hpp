@@ -15,7 +15,8 @@ struct PngImage {
   std::string error;
 };
 
-/// Decodes a PNG in memory. gray16 takes 16-bit gray images only; rgb8 converts what there is. Never throws on bad data.
+/// Decodes a PNG in memory. gray16 takes 16-bit gray images only; rgb8 converts what there is. Never throws on bad
+/// data.
 PngImage decode_png(const std::string& file_bytes, PngFormat format);
 
 }  // namespace ppm

@@ -10,7 +10,8 @@ void add_bookshelf(SceneBuilder& s, const Isometry3d& T) {
   constexpr double kDepth = 0.32, kWidth = 1.70, kHeight = 2.0;
   constexpr int kShelves = 5;
   s.begin_object("bookshelf", T);
-  for (double y : {-1.0, 0.0, 1.0}) box(s, {0, y * (kWidth / 2 - 0.0125), kHeight / 2}, {kDepth, 0.025, kHeight}, kWalnut);
+  for (double y : {-1.0, 0.0, 1.0})
+    box(s, {0, y * (kWidth / 2 - 0.0125), kHeight / 2}, {kDepth, 0.025, kHeight}, kWalnut);
   box(s, {-kDepth / 2 + 0.005, 0, kHeight / 2}, {0.01, kWidth, kHeight}, kWalnut);
   for (int k = 0; k <= kShelves; ++k) box(s, {0, 0, 0.06 + 0.385 * k}, {kDepth, kWidth, 0.025}, kWalnut);
 
@@ -23,8 +24,10 @@ void add_bookshelf(SceneBuilder& s, const Isometry3d& T) {
       const int count = 5 + (shelf * 3 + half * 2) % 5;
       for (int i = 0; i < count; ++i) {  // sizes that look random and are not
         const int h = (shelf * 37 + half * 17 + i * 11) % 13;
-        const double thick = 0.025 + 0.004 * h, high = 0.19 + 0.010 * ((h * 5) % 13), deep = 0.16 + 0.007 * ((h * 7) % 13);
-        box(s, {-kDepth / 2 + 0.015 + deep / 2, y + thick / 2, floor + high / 2}, {deep, thick, high}, covers[(h + i) % 8]);
+        const double thick = 0.025 + 0.004 * h, high = 0.19 + 0.010 * ((h * 5) % 13),
+                     deep = 0.16 + 0.007 * ((h * 7) % 13);
+        box(s, {-kDepth / 2 + 0.015 + deep / 2, y + thick / 2, floor + high / 2}, {deep, thick, high},
+            covers[(h + i) % 8]);
         y += thick + 0.003;
       }
       if ((shelf + half) % 3 == 0) cylinder(s, {0.02, y + 0.15, floor + 0.11}, 0.07, 0.22, kBlue);
@@ -50,7 +53,8 @@ void add_sideboard(SceneBuilder& s, const Isometry3d& T) {
   box(s, {-0.04, 0.08, 0.74}, {0.24, 0.45, 0.02}, kBlack * 1.5f, yaw(6));
   s.begin_object("things on the sideboard", T);
   cylinder(s, {0.05, -0.74, 0.80}, 0.08, 0.14, kWhite);
-  for (double a : {0.5, 2.2, 4.0, 5.3}) sphere(s, {0.05 + 0.07 * std::cos(a), -0.74 + 0.07 * std::sin(a), 0.95}, 0.08, kGreen);
+  for (double a : {0.5, 2.2, 4.0, 5.3})
+    sphere(s, {0.05 + 0.07 * std::cos(a), -0.74 + 0.07 * std::sin(a), 0.95}, 0.08, kGreen);
   sphere(s, {0.05, -0.74, 1.03}, 0.08, kGreen * 1.2f);
   box(s, {0.04, 0.76, 0.84}, {0.17, 0.14, 0.22}, kWalnut, yaw(-15));
 }
@@ -78,7 +82,8 @@ void add_window(SceneBuilder& s, const Isometry3d& T) {
   for (double z : {0.22, 0.66}) box(s, {0.07, 0, z}, {0.05, 1.36, 0.05}, kWhite);
   s.begin_object("curtains", T);
   for (double side : {-1.0, 1.0})
-    for (int i = 0; i < 6; ++i) cylinder(s, {0.10 + 0.02 * (i % 2), side * (0.84 + 0.085 * i), 1.20}, 0.055, 2.14, linen);
+    for (int i = 0; i < 6; ++i)
+      cylinder(s, {0.10 + 0.02 * (i % 2), side * (0.84 + 0.085 * i), 1.20}, 0.055, 2.14, linen);
   cylinder(s, {0.11, 0, 2.31}, 0.018, 2.70, kSteel, yaw(90) * tilt(90));
 }
 

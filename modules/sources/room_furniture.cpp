@@ -71,7 +71,8 @@ void add_dining_table(SceneBuilder& s, const Isometry3d& T) {
     cylinder(s, {0.08, y + 0.16, 0.80}, 0.035, 0.10, kBlue);
   }
   cylinder(s, {-0.05, -0.03, 0.84}, 0.06, 0.18, kTerracotta);
-  for (double a : {0.0, 2.1, 4.2}) sphere(s, {-0.05 + 0.07 * std::cos(a), -0.03 + 0.07 * std::sin(a), 1.0}, 0.075, kGreen);
+  for (double a : {0.0, 2.1, 4.2})
+    sphere(s, {-0.05 + 0.07 * std::cos(a), -0.03 + 0.07 * std::sin(a), 1.0}, 0.075, kGreen);
   sphere(s, {-0.05, -0.03, 1.07}, 0.07, kYellow);
   box(s, {-0.22, 0.42, 0.79}, {0.20, 0.32, 0.08}, kCream, yaw(20));
 }
@@ -89,7 +90,8 @@ void add_plant(SceneBuilder& s, const Isometry3d& T) {
   cylinder(s, {0, 0, 0.60}, 0.025, 0.50, kWalnut);
   for (int i = 0; i < 9; ++i) {  // a crown of round leaves on a spiral
     const double a = 2.4 * i, r = 0.08 + 0.015 * i;
-    sphere(s, {r * std::cos(a), r * std::sin(a), 0.78 + 0.065 * i}, 0.15 - 0.007 * i, kGreen * (0.8f + 0.06f * static_cast<float>(i)));
+    sphere(s, {r * std::cos(a), r * std::sin(a), 0.78 + 0.065 * i}, 0.15 - 0.007 * i,
+           kGreen * (0.8f + 0.06f * static_cast<float>(i)));
   }
 }
 

@@ -3,8 +3,9 @@
 
 namespace ppm {
 
-/// Pieces of furniture, each added as one object with the things that lie on it. Object frame: origin on the floor in the middle
-/// of the piece (for things on a wall: on the wall), z up, front towards +x. Sizes are those of ordinary furniture.
+/// Pieces of furniture, each added as one object with the things that lie on it. Object frame: origin on the floor in
+/// the middle of the piece (for things on a wall: on the wall), z up, front towards +x. Sizes are those of ordinary
+/// furniture.
 void add_sofa(SceneBuilder& scene, const Eigen::Isometry3d& T_world_object);
 void add_armchair(SceneBuilder& scene, const Eigen::Isometry3d& T_world_object);
 void add_coffee_table(SceneBuilder& scene, const Eigen::Isometry3d& T_world_object);

@@ -7,9 +7,10 @@ namespace ppm::parts {
 using Color = Eigen::Vector3f;
 using Vec = Eigen::Vector3d;
 
-inline const Color kOak{0.62f, 0.45f, 0.28f}, kWalnut{0.36f, 0.24f, 0.16f}, kWhite{0.85f, 0.84f, 0.80f}, kBlack{0.09f, 0.09f, 0.10f},
-    kSteel{0.55f, 0.56f, 0.58f}, kGreen{0.22f, 0.42f, 0.20f}, kTerracotta{0.68f, 0.36f, 0.24f}, kBlue{0.25f, 0.38f, 0.58f},
-    kCream{0.80f, 0.74f, 0.62f}, kRed{0.65f, 0.20f, 0.18f}, kYellow{0.82f, 0.66f, 0.22f};
+inline const Color kOak{0.62f, 0.45f, 0.28f}, kWalnut{0.36f, 0.24f, 0.16f}, kWhite{0.85f, 0.84f, 0.80f},
+    kBlack{0.09f, 0.09f, 0.10f}, kSteel{0.55f, 0.56f, 0.58f}, kGreen{0.22f, 0.42f, 0.20f},
+    kTerracotta{0.68f, 0.36f, 0.24f}, kBlue{0.25f, 0.38f, 0.58f}, kCream{0.80f, 0.74f, 0.62f},
+    kRed{0.65f, 0.20f, 0.18f}, kYellow{0.82f, 0.66f, 0.22f};
 
 inline Eigen::Matrix3d yaw(double degrees) {
   return Eigen::AngleAxisd(degrees * EIGEN_PI / 180, Vec::UnitZ()).toRotationMatrix();

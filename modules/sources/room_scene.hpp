@@ -6,9 +6,9 @@ namespace ppm {
 /// Inner size of the furnished room, m: x in +-half.x, y in +-half.y, z from the floor at 0 to 2 half.z.
 inline const Eigen::Vector3d kRoomHalf{2.8, 2.3, 1.3};
 
-/// A living room with a place to eat: sofa, armchair, coffee table, bookshelf, sideboard with television, dining table with
-/// chairs, window with curtains, door, plants, lamps and small things; some 270 solids. World frame: z up, floor at z = 0,
-/// origin in the middle of the floor, metres. The walls are closed: a ray from inside always hits something.
+/// A living room with a place to eat: sofa, armchair, coffee table, bookshelf, sideboard with television, dining table
+/// with chairs, window with curtains, door, plants, lamps and small things; some 270 solids. World frame: z up, floor
+/// at z = 0, origin in the middle of the floor, metres. The walls are closed: a ray from inside always hits something.
 /// The space above the coffee table's height within 1 m of the room's middle axis is free.
 AnalyticScene make_room();
 

@@ -12,8 +12,8 @@ void SceneBuilder::begin_object(std::string name, const Eigen::Isometry3d& T_wor
   T_world_object_ = T_world_object;
 }
 
-void SceneBuilder::add(Solid::Shape shape, const Eigen::Vector3d& center, const Eigen::Vector3d& half, const Eigen::Vector3f& albedo,
-                       const Eigen::Matrix3d& R_object_local) {
+void SceneBuilder::add(Solid::Shape shape, const Eigen::Vector3d& center, const Eigen::Vector3d& half,
+                       const Eigen::Vector3f& albedo, const Eigen::Matrix3d& R_object_local) {
   PPM_CHECK(!objects_.empty(), "begin_object() comes first");
   solids_.push_back({shape, T_world_object_ * center, T_world_object_.linear() * R_object_local, half, albedo});
   objects_.back().end = static_cast<std::uint32_t>(solids_.size());

@@ -12,8 +12,8 @@ class SceneBuilder {
   /// Starts an object: solids added from here on are parts of it, in its frame.
   void begin_object(std::string name, const Eigen::Isometry3d& T_world_object = Eigen::Isometry3d::Identity());
   /// center: in the object's frame; R_object_local: the solid's axes there.
-  void add(Solid::Shape shape, const Eigen::Vector3d& center, const Eigen::Vector3d& half, const Eigen::Vector3f& albedo,
-           const Eigen::Matrix3d& R_object_local = Eigen::Matrix3d::Identity());
+  void add(Solid::Shape shape, const Eigen::Vector3d& center, const Eigen::Vector3d& half,
+           const Eigen::Vector3f& albedo, const Eigen::Matrix3d& R_object_local = Eigen::Matrix3d::Identity());
   /// The scene of all that was added.
   AnalyticScene build() const { return {solids_, objects_}; }
 

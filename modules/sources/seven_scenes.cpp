@@ -34,16 +34,18 @@ Camera read_intrinsics(const std::filesystem::path& file) {
 Pose read_pose(const std::filesystem::path& file, std::int64_t frame) {
   const auto values = read_numbers(file, frame, 16);
   const Eigen::Matrix4d T = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
-  if (T.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw DataError(file.string(), frame, "is no pose: the last row must be 0 0 0 1");
+  if (T.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    throw DataError(file.string(), frame, "is no pose: the last row must be 0 0 0 1");
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (error > kMaxRotationError || R.determinant() < 0)
-    throw DataError(file.string(), frame, fmt::format("is no pose: its rotation is not orthonormal (off by {:.2g})", error));
+    throw DataError(file.string(), frame,
+                    fmt::format("is no pose: its rotation is not orthonormal (off by {:.2g})", error));
   return orthonormalized(T);
 }
 
-/// frame-NNNNNN.{depth.png, pose.txt, color.jpg} and camera-intrinsics.txt in one folder, in the order of their numbers.
-/// An image's index is its place in that order: without gaps and from 0 on, the number itself.
+/// frame-NNNNNN.{depth.png, pose.txt, color.jpg} and camera-intrinsics.txt in one folder, in the order of their
+/// numbers. An image's index is its place in that order: without gaps and from 0 on, the number itself.
 class SevenScenesSequence final : public FrameSequence {
  public:
   SevenScenesSequence(const std::filesystem::path& path, double depth_scale, double rate_hz, bool color)
@@ -62,7 +64,9 @@ class SevenScenesSequence final : public FrameSequence {
   std::string name() const override { return folder_.string(); }
   std::int64_t size() const override { return static_cast<std::int64_t>(images_.size()); }
   double stamp_s(std::int64_t index) const override { return static_cast<double>(image(index).number) / rate_hz_; }
-  std::optional<Pose> reference_pose(std::int64_t index) const override { return read_pose(file(index, ".pose.txt"), index); }
+  std::optional<Pose> reference_pose(std::int64_t index) const override {
+    return read_pose(file(index, ".pose.txt"), index);
+  }
 
   Frame read(std::int64_t index) const override {
     Frame frame;
@@ -94,7 +98,9 @@ class SevenScenesSequence final : public FrameSequence {
     std::string stem;  // "frame-000123"
   };
   const Image& image(std::int64_t index) const { return images_[static_cast<std::size_t>(index)]; }
-  std::filesystem::path file(std::int64_t index, const char* suffix) const { return folder_ / (image(index).stem + suffix); }
+  std::filesystem::path file(std::int64_t index, const char* suffix) const {
+    return folder_ / (image(index).stem + suffix);
+  }
 
   std::filesystem::path folder_;
   double depth_scale_, rate_hz_;
@@ -104,17 +110,24 @@ class SevenScenesSequence final : public FrameSequence {
 };
 
 /// A folder of the 7-Scenes data set, or in its layout.
-/// frame   depth in m from frame-*.depth.png (0 and 65535: no return), stamp number / rate, reference pose from frame-*.pose.txt
+/// frame   depth in m from frame-*.depth.png (0 and 65535: no return), stamp number / rate, reference pose from
+/// frame-*.pose.txt
 ///         (camera to world, made orthonormal), color from frame-*.color.jpg if asked for
 /// throws  DataError naming file and frame: no such folder, no images, no or broken intrinsics, pose or image
 /// source  Shotton et al., "Scene coordinate regression forests for camera relocalization in RGB-D images", CVPR 2013
 class SevenScenes final : public FrameSource {
  public:
   SevenScenes() {
-    params_.add("path", path_).required().doc("The folder. A leading ${PPM_DATA} is replaced by that environment variable, or by ../shared/data.");
+    params_.add("path", path_)
+        .required()
+        .doc("The folder. A leading ${PPM_DATA} is replaced by that environment variable, or by ../shared/data.");
     params_.add("depth_scale", depth_scale_).above(0).doc("Depth units of the image per metre.");
-    params_.add("rate", rate_hz_).unit("Hz").above(0).doc("Images per second: an image's time is its number divided by this.");
-    params_.add("color", color_).doc("Also read the colour images. They are taken as they are, without registration to the depth images.");
+    params_.add("rate", rate_hz_)
+        .unit("Hz")
+        .above(0)
+        .doc("Images per second: an image's time is its number divided by this.");
+    params_.add("color", color_)
+        .doc("Also read the colour images. They are taken as they are, without registration to the depth images.");
   }
 
  private:

@@ -68,11 +68,15 @@ double outside_distance(const V& excess) {
 }  // namespace
 
 SolidHit enter(const Solid& solid, const Vec& origin, const Vec& direction) {
-  const Vec o = solid.R_world_local.transpose() * (origin - solid.center), d = solid.R_world_local.transpose() * direction;
+  const Vec o = solid.R_world_local.transpose() * (origin - solid.center),
+            d = solid.R_world_local.transpose() * direction;
   switch (solid.shape) {
-    case Solid::Shape::box: return hit_box(o, d, solid.half);
-    case Solid::Shape::cylinder: return hit_cylinder(o, d, solid.half.x(), solid.half.z());
-    case Solid::Shape::sphere: return hit_sphere(o, d, solid.half.x());
+    case Solid::Shape::box:
+      return hit_box(o, d, solid.half);
+    case Solid::Shape::cylinder:
+      return hit_cylinder(o, d, solid.half.x(), solid.half.z());
+    case Solid::Shape::sphere:
+      return hit_sphere(o, d, solid.half.x());
   }
   return {};
 }
@@ -80,10 +84,12 @@ SolidHit enter(const Solid& solid, const Vec& origin, const Vec& direction) {
 double signed_distance(const Solid& solid, const Vec& p_world) {
   const Vec p = solid.R_world_local.transpose() * (p_world - solid.center);
   switch (solid.shape) {
-    case Solid::Shape::box: return outside_distance(Vec(p.cwiseAbs() - solid.half));
+    case Solid::Shape::box:
+      return outside_distance(Vec(p.cwiseAbs() - solid.half));
     case Solid::Shape::cylinder:
       return outside_distance(Eigen::Vector2d(p.head<2>().norm() - solid.half.x(), std::abs(p.z()) - solid.half.z()));
-    case Solid::Shape::sphere: return p.norm() - solid.half.x();
+    case Solid::Shape::sphere:
+      return p.norm() - solid.half.x();
   }
   return 0;
 }

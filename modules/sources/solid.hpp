@@ -4,12 +4,12 @@
 
 namespace ppm {
 
-/// A closed solid with an exact surface. Local axes: a box has half sizes half.xyz; a cylinder stands on its local z with radius
-/// half.x = half.y and half height half.z, with flat ends; a sphere has radius half.x = half.y = half.z.
+/// A closed solid with an exact surface. Local axes: a box has half sizes half.xyz; a cylinder stands on its local z
+/// with radius half.x = half.y and half height half.z, with flat ends; a sphere has radius half.x = half.y = half.z.
 struct Solid {
   enum class Shape { box, cylinder, sphere };
   Shape shape = Shape::box;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();          ///< m, world
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< m, world
   Eigen::Matrix3d R_world_local = Eigen::Matrix3d::Identity();
   Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5);     ///< m
   Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.6f);  ///< reflectance of red, green, blue in [0, 1]

@@ -101,7 +101,8 @@ SolidTree::Range SolidTree::split(const std::vector<Eigen::AlignedBox3d>& boxes,
   return left;
 }
 
-TreeHit SolidTree::cast(const std::vector<Solid>& solids, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+TreeHit SolidTree::cast(const std::vector<Solid>& solids, const Eigen::Vector3d& origin,
+                        const Eigen::Vector3d& direction) const {
   struct Visit {
     float range_m;
     std::uint32_t first, count;

@@ -16,7 +16,8 @@ struct TreeHit {
 };
 
 /// A tree of boxes over solids, four children a node, split where a ray is expected to meet the fewest of them.
-/// Source: surface area heuristic, Goldsmith & Salmon, IEEE CG&A 1987; four children tested at once, Dammertz et al., EGSR 2008.
+/// Source: surface area heuristic, Goldsmith & Salmon, IEEE CG&A 1987; four children tested at once, Dammertz et al.,
+/// EGSR 2008.
 class SolidTree {
  public:
   explicit SolidTree(const std::vector<Solid>& solids);
@@ -24,8 +25,8 @@ class SolidTree {
   TreeHit cast(const std::vector<Solid>& solids, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
  private:
-  /// The boxes of four children, a lane each, a little larger than their content, so that rounding to float loses nothing.
-  /// An unused lane has an inverted box, which no ray meets.
+  /// The boxes of four children, a lane each, a little larger than their content, so that rounding to float loses
+  /// nothing. An unused lane has an inverted box, which no ray meets.
   struct Node {
     std::array<Eigen::Array4f, 3> low, high;  // by axis
     std::array<std::uint32_t, 4> first{};     // leaf: of order_; else of nodes_

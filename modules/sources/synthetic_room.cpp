@@ -9,7 +9,8 @@ namespace {
 
 class RoomSequence final : public FrameSequence {
  public:
-  RoomSequence(std::int64_t frames, std::uint64_t seed, const TofCamera& tof) : frames_(frames), seed_(seed), tof_(tof), room_(make_room()) {}
+  RoomSequence(std::int64_t frames, std::uint64_t seed, const TofCamera& tof)
+      : frames_(frames), seed_(seed), tof_(tof), room_(make_room()) {}
 
   std::string name() const override { return "synthetic room"; }
   std::int64_t size() const override { return frames_; }
@@ -31,17 +32,20 @@ class RoomSequence final : public FrameSequence {
   AnalyticScene room_;
 };
 
-/// A furnished room made in code (make_room), seen by a simulated time-of-flight camera (TofCamera) that is carried round
-/// (room_camera_pose). Needs no data; poses and geometry are exact.
-/// frame   176x144 depth with noise, flying pixels and drop-outs; sigma is the true one; reference poses; colour if asked for
-/// source  noise model: Lange & Seitz 2001
+/// A furnished room made in code (make_room), seen by a simulated time-of-flight camera (TofCamera) that is carried
+/// round (room_camera_pose). Needs no data; poses and geometry are exact. frame   176x144 depth with noise, flying
+/// pixels and drop-outs; sigma is the true one; reference poses; colour if asked for source  noise model: Lange & Seitz
+/// 2001
 class SyntheticRoom final : public FrameSource {
  public:
   SyntheticRoom() {
-    params_.add("frames", frames_).range(1, 1e6).doc("Length of the sequence. One loop round the room takes 310 frames.");
+    params_.add("frames", frames_)
+        .range(1, 1e6)
+        .doc("Length of the sequence. One loop round the room takes 310 frames.");
     params_.add("seed", seed_).range(0, 1e15).doc("Seed of the camera's noise; it does not depend on the run's seed.");
     params_.add("noise", tof_.noise).range(0, 10).doc("Scale of the noise of ranges; 0 gives exact ones.");
-    params_.add("flying_pixels", tof_.flying_pixels).doc("Whether pixels at depth edges mix the ranges of what is in them.");
+    params_.add("flying_pixels", tof_.flying_pixels)
+        .doc("Whether pixels at depth edges mix the ranges of what is in them.");
     params_.add("color", tof_.color).doc("Also give a colour image.");
   }
 
@@ -58,6 +62,7 @@ class SyntheticRoom final : public FrameSource {
 }  // namespace ppm
 
 PPM_MODULES(r) {
-  r.add<ppm::SyntheticRoom>("source.synthetic_room", "Makes depth images of a furnished room, as a time-of-flight camera would see it.",
+  r.add<ppm::SyntheticRoom>("source.synthetic_room",
+                            "Makes depth images of a furnished room, as a time-of-flight camera would see it.",
                             "Noise model: Lange & Seitz, IEEE JQE 2001");
 }

@@ -27,7 +27,8 @@ Eigen::Vector3f lit(const Eigen::Vector3f& albedo, const Eigen::Vector3d& p, con
   return albedo * static_cast<float>(0.40 + 0.10 * normal.z() + 0.50 * lamp);
 }
 
-Echo echo(const AnalyticScene& scene, const SceneHit& hit, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, bool color) {
+Echo echo(const AnalyticScene& scene, const SceneHit& hit, const Eigen::Vector3d& origin,
+          const Eigen::Vector3d& direction, bool color) {
   if (hit.solid == SceneHit::kNone) return {};
   Echo e{hit.range_m, 0, -hit.normal.dot(direction), hit, {}};
   const Eigen::Vector3f& albedo = scene.solids()[hit.solid].albedo;
@@ -63,15 +64,16 @@ class Exposure {
     for (int v = std::max(0, y - 1); v <= std::min(rows_ - 1, y + 1); ++v)
       for (int u = std::max(0, x - 1); u <= std::min(cols_ - 1, x + 1); ++u) f(u, v);
   }
-  /// Whether a surface begins beside or within the pixel that does not lie in its centre's tangent plane. Creases, where the
-  /// ranges within a pixel differ little, do not count.
+  /// Whether a surface begins beside or within the pixel that does not lie in its centre's tangent plane. Creases,
+  /// where the ranges within a pixel differ little, do not count.
   bool on_edge(int x, int y) const {
     const SceneHit& hit = at(x, y).hit;
     const double plane = hit.normal.dot(ray(x, y)) * hit.range_m;
     bool edge = false;
     around(x, y, [&](int u, int v) {
       const SceneHit& beside = at(u, v).hit;
-      if (!edge && beside.solid != hit.solid) edge = std::abs(plane / hit.normal.dot(ray(u, v)) - beside.range_m) > kEdge_m;
+      if (!edge && beside.solid != hit.solid)
+        edge = std::abs(plane / hit.normal.dot(ray(u, v)) - beside.range_m) > kEdge_m;
     });
     return edge;
   }
@@ -137,7 +139,8 @@ void TofCamera::render(const AnalyticScene& scene, const Pose& T_world_camera, s
     Rng rng(seed, static_cast<std::uint32_t>(frame.index), static_cast<std::uint32_t>(y), purpose);
     for (int x = 0; x < camera.cols; ++x) {
       const Echo e = exposure.pixel(x, y);
-      const double range_noise = rng.normal(), amplitude_noise = rng.normal();  // drawn for every pixel: the order is fixed
+      const double range_noise = rng.normal(),
+                   amplitude_noise = rng.normal();  // drawn for every pixel: the order is fixed
       if (color) append_srgb(e.color, frame.color);
       if (e.cosine < kLeastCosine || e.amplitude * (1 + 0.1 * noise * amplitude_noise) < kLeastAmplitude) continue;
       const double sigma = range_sigma(e.amplitude), z_per_range = 1 / camera.ray(x, y).norm();
