@@ -107,7 +107,7 @@ PngImage decode_png(const std::string& file_bytes, PngFormat format) {
   if (!read_header(r, format)) return fail(fmt::format("is a broken PNG image: {}", r.message));
   if (format == PngFormat::gray16 &&
       (png_get_bit_depth(r.png, r.info) != 16 || png_get_color_type(r.png, r.info) != PNG_COLOR_TYPE_GRAY))
-    return fail(fmt::format("is a {} PNG image; depth must be 16-bit gray", kind_of(r)));
+    return fail(fmt::format("is a PNG image of {}; depth must be 16-bit gray", kind_of(r)));
 
   image.cols = static_cast<int>(png_get_image_width(r.png, r.info));
   image.rows = static_cast<int>(png_get_image_height(r.png, r.info));

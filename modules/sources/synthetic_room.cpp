@@ -33,9 +33,10 @@ class RoomSequence final : public FrameSequence {
 };
 
 /// A furnished room made in code (make_room), seen by a simulated time-of-flight camera (TofCamera) that is carried
-/// round (room_camera_pose). Needs no data; poses and geometry are exact. frame   176x144 depth with noise, flying
-/// pixels and drop-outs; sigma is the true one; reference poses; colour if asked for source  noise model: Lange & Seitz
-/// 2001
+/// round (room_camera_pose). Needs no data; poses and geometry are exact.
+/// frame   176x144 depth with noise, flying pixels and drop-outs; sigma is the true one; reference poses; color if
+///         asked for
+/// source  noise model: Lange & Seitz 2001
 class SyntheticRoom final : public FrameSource {
  public:
   SyntheticRoom() {
