@@ -9,23 +9,36 @@ namespace ppm {
 namespace {
 
 constexpr std::int64_t kAtEnd = -1;
-constexpr std::int64_t kLongestPeriod = 5000;  // frames; longer patterns of `every` are looked at in part
+constexpr std::int64_t kLongestPeriod = 2000;  // frames
+
+/// The frames after which the pattern of running nodes repeats, or more than kLongestPeriod.
+std::int64_t period_of(const std::vector<Node>& nodes) {
+  std::int64_t period = 1;
+  for (const auto& node : nodes) {
+    if (period <= kLongestPeriod) period = std::lcm(period, std::min(node.gate.every, kLongestPeriod + 1));
+  }
+  return period;
+}
 
 /// Frames that show all that the gates can do. Between two ends of gates the pattern of running nodes is periodic, and
-/// a facet that a whole period has not changed will not change: two periods and what remains are enough.
+/// a facet that a whole period has not changed will not change: two periods and what remains are enough. Where the
+/// period is very long, only the first frames are looked at.
 std::vector<std::int64_t> frames_to_check(const std::vector<Node>& nodes) {
-  std::int64_t period = 1;
-  std::vector<std::int64_t> ends{0};
-  for (const auto& node : nodes) {
-    period = std::min(std::lcm(period, node.gate.every), kLongestPeriod);
-    ends.push_back(node.gate.from_frame);
-    if (node.gate.until_frame != Gate::kForever) ends.push_back(node.gate.until_frame + 1);
-  }
-  std::ranges::sort(ends);
   std::vector<std::int64_t> frames;
   auto add = [&](std::int64_t begin, std::int64_t end) {
     for (auto f = begin; f < end; ++f) frames.push_back(f);
   };
+  const auto period = period_of(nodes);
+  if (period > kLongestPeriod) {
+    add(0, 2 * kLongestPeriod);
+    return frames;
+  }
+  std::vector<std::int64_t> ends{0};
+  for (const auto& node : nodes) {
+    ends.push_back(node.gate.from_frame);
+    if (node.gate.until_frame != Gate::kForever) ends.push_back(node.gate.until_frame + 1);
+  }
+  std::ranges::sort(ends);
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
     const auto looked = std::min(ends[k] + 2 * period, ends[k + 1]);
     add(ends[k], looked);

@@ -3,7 +3,7 @@
 namespace ppm {
 
 void Gate::declare(Params& params) {
-  constexpr double most = std::numeric_limits<double>::infinity();
+  constexpr double most = 1e12;  // keeps sums of frames far from overflow
   params.add("from_frame", from_frame).range(0, most).doc("First frame of the run in which the node runs, from 0.");
   params.add("until_frame", until_frame).range(0, most).doc("Last frame in which it runs.");
   params.add("every", every).range(1, most).doc("Runs in every n-th frame, counted from from_frame.");

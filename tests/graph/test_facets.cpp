@@ -28,6 +28,13 @@ const std::string kWalk = node("walk", "motion.toy_walk", kNumber + ", when: {fr
 const std::string kLook = node("look", "prediction.toy", kNumber);
 const std::string kWeigh = node("weigh", "weighting.toy");
 
+/// Adds a weighting for each period.
+std::string with_every(std::string lines, const std::vector<int>& periods) {
+  for (int p : periods)
+    lines += node(fmt::format("weigh{}", p), "weighting.toy", fmt::format(", when: {{every: {}}}", p));
+  return lines;
+}
+
 }  // namespace
 
 TEST_CASE("a belief that has what each node needs") {
@@ -83,4 +90,10 @@ TEST_CASE("a facet that is dropped and not given again in time") {
 TEST_CASE("gates far away are looked at") {
   CHECK(mistakes(kInit + kWalk + node("look", "prediction.toy", kNumber + ", when: {until_frame: 1000000}") + kWeigh)
             .find("in frame 1000001") != std::string::npos);
+}
+
+TEST_CASE("gates of any size are looked at in no time") {
+  const std::string huge = ", when: {from_frame: 1000000000000, every: 999999999989}";
+  CHECK(mistakes(kInit + kWalk + kLook + node("weigh", "weighting.toy", huge)) == "");
+  CHECK(mistakes(with_every(kInit + kWalk + kLook, {7, 11, 13, 17, 19})) == "");
 }
