@@ -1,9 +1,12 @@
 #include "modules/sinks/overview.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+
+#include "framework/core/timing.hpp"
 
 namespace ppm {
 namespace {
@@ -43,6 +46,24 @@ std::pair<double, double> robust_range(std::vector<double> values) {
   return {values[margin], values[values.size() - 1 - margin]};
 }
 
+/// Shifts the eye sideways, so that the points lie in the middle of the picture, to first order.
+void centre(const std::vector<Eigen::Vector3d>& points, Eigen::Vector3d& eye) {
+  std::array<std::vector<double>, 2> slope;
+  std::vector<double> depths;
+  for (const auto& p : points) {
+    const Eigen::Vector3d q = p - eye;
+    if (q.z() <= 0) continue;
+    depths.push_back(q.z());
+    for (int axis = 0; axis < 2; ++axis) slope[static_cast<std::size_t>(axis)].push_back(q[axis] / q.z());
+  }
+  if (depths.empty()) return;
+  const double depth = quantile(depths, 0.5);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto [low, high] = robust_range(slope[static_cast<std::size_t>(axis)]);
+    eye[axis] += 0.5 * (low + high) * depth;
+  }
+}
+
 /// Places the camera, whose axes are given, so that nearly all points fill the picture. Points: axes' coordinates.
 Eigen::Vector3d fit(const std::vector<Eigen::Vector3d>& points, const Camera& camera) {
   // A point is inside the left border if x + s z >= x0 + s z0, with s the border's slope: each border is an extreme value.
@@ -58,7 +79,9 @@ Eigen::Vector3d fit(const std::vector<Eigen::Vector3d>& points, const Camera& ca
   constexpr double kMargin = 0.94;
   const auto [x, z_for_x] = place(0, kMargin * camera.cols / (2 * camera.fx));
   const auto [y, z_for_y] = place(1, kMargin * camera.rows / (2 * camera.fy));
-  return {x, y, std::min(z_for_x, z_for_y)};
+  Eigen::Vector3d eye(x, y, std::min(z_for_x, z_for_y));
+  for (int i = 0; i < 4; ++i) centre(points, eye);
+  return eye;
 }
 
 }  // namespace
