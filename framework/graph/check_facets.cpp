@@ -49,6 +49,7 @@ std::vector<std::int64_t> frames_to_check(const std::vector<Node>& nodes) {
 }
 
 std::string in_words(const std::string& need) {
+  if (need == "belief") return "a belief";
   if (need == "map.*") return "a map";
   if (need.starts_with("map.")) return fmt::format("a '{}' map", need.substr(4));
   return fmt::format("'{}' on the belief", need);

@@ -36,8 +36,10 @@ class GraphBuilder {
   // wire_graph.cpp: inputs to the outputs above
   void wire();
   void wire_node(std::size_t i);
-  void wire_input(std::size_t i, const Config::Entry& entry);
+  PortBase* find_input(std::size_t i, const Config::Entry& entry);
   const PortBase* find_output(std::size_t i, const Config& source);
+  std::string no_node_above(std::size_t i, const std::string& name) const;
+  void connect(std::size_t i, PortBase& input, const PortBase& output, const Config& source);
   void report_unwired(std::size_t i, const PortBase& input);
   void make_outputs(std::size_t i);
   void check_source(const Config& file);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 #include "framework/graph/graph_builder.hpp"
 #include "framework/slam/particle_set.hpp"
@@ -62,34 +63,40 @@ void GraphBuilder::wire_node(std::size_t i) {
     report(in->place(), fmt::format("'in' is a map such as {{frame: camera.frame}}, not {}", a_kind(*in)));
     return;
   }
-  if (in) {
-    for (const auto& entry : in->entries()) wire_input(i, entry);
+  std::set<const PortBase*> meant;
+  for (const auto& entry : in ? in->entries() : std::vector<Config::Entry>{}) {
+    PortBase* input = find_input(i, entry);
+    const PortBase* output = find_output(i, entry.value);
+    meant.insert(input);
+    if (input && output) connect(i, *input, *output, entry.value);
   }
   for (auto* port : ports_of(graph_.nodes_[i], PortDirection::in)) {
-    if (!in || !in->find(port->name())) report_unwired(i, *port);
+    if (!meant.contains(port)) report_unwired(i, *port);
   }
 }
 
-void GraphBuilder::wire_input(std::size_t i, const Config::Entry& entry) {
-  Node& node = graph_.nodes_[i];
+PortBase* GraphBuilder::find_input(std::size_t i, const Config::Entry& entry) {
+  const Node& node = graph_.nodes_[i];
   PortBase* input = find_port(node, PortDirection::in, entry.key);
-  if (!input && node.module) {
-    if (find_port(node, PortDirection::belief, entry.key)) {
-      report(entry.key_place, "the belief needs no 'in' line: it goes through the nodes from top to bottom");
-      return;
-    }
-    report(entry.key_place, fmt::format("module '{}' has no input '{}'{}", node.module_name, entry.key,
-                                        port_hint(entry.key, ports_of(node, PortDirection::in), "inputs")));
+  if (input || !node.module) return input;
+  if (find_port(node, PortDirection::belief, entry.key)) {
+    report(entry.key_place, "the belief needs no 'in' line: it goes through the nodes from top to bottom");
+    return nullptr;
   }
-  const PortBase* output = find_output(i, entry.value);
-  if (!input || !output) return;
-  if (input->type() != output->type()) {
-    report(entry.value.place(), fmt::format("input '{}' takes a '{}', but '{}' is a '{}'", entry.key,
-                                            input->type_name(), entry.value.text(), output->type_name()));
+  const auto inputs = ports_of(node, PortDirection::in);
+  report(entry.key_place, fmt::format("module '{}' has no input '{}'{}", node.module_name, entry.key,
+                                      port_hint(entry.key, inputs, "inputs")));
+  return find_port(node, PortDirection::in, did_you_mean(entry.key, names_of(inputs)));
+}
+
+void GraphBuilder::connect(std::size_t i, PortBase& input, const PortBase& output, const Config& source) {
+  if (input.type() != output.type()) {
+    report(source.place(), fmt::format("input '{}' takes a '{}', but '{}' is a '{}'", input.name(), input.type_name(),
+                                       source.text(), output.type_name()));
     return;
   }
-  input->slot_ = output->slot_;
-  node.edges.push_back({entry.key, entry.value.text()});
+  input.slot_ = output.slot_;
+  graph_.nodes_[i].edges.push_back({input.name(), source.text()});
 }
 
 const PortBase* GraphBuilder::find_output(std::size_t i, const Config& source) {
@@ -99,27 +106,31 @@ const PortBase* GraphBuilder::find_output(std::size_t i, const Config& source) {
     report(source.place(), "an input is written as node.output, such as camera.frame");
     return nullptr;
   }
-  const std::string name = text.substr(0, dot);
-  const auto& nodes = graph_.nodes_;
-  const auto end = nodes.begin() + static_cast<std::ptrdiff_t>(i);
-  auto named = [&](const Node& n) { return n.name == name; };
-  auto maker = std::find_if(nodes.begin(), end, named);
+  const std::string name = text.substr(0, dot), port = text.substr(dot + 1);
+  const auto end = graph_.nodes_.begin() + static_cast<std::ptrdiff_t>(i);
+  const auto maker = std::find_if(graph_.nodes_.begin(), end, [&](const Node& n) { return n.name == name; });
   if (maker == end) {
-    std::vector<std::string> above;
-    for (auto it = nodes.begin(); it != end; ++it) above.push_back(it->name);
-    const bool below = std::any_of(end, nodes.end(), named);
-    report(source.place(), below && nodes[i].name == name ? fmt::format("node '{}' cannot use its own output", name)
-                           : below ? fmt::format("node '{}' is below; nodes use only what was made above them", name)
-                                   : fmt::format("no node '{}' above{}", name, suggestion(name, above)));
+    report(source.place(), no_node_above(i, name));
     return nullptr;
   }
-  const PortBase* output = find_port(*maker, PortDirection::out, text.substr(dot + 1));
+  const PortBase* output = find_port(*maker, PortDirection::out, port);
   if (!output && maker->module) {
-    report(source.place(),
-           fmt::format("node '{}' has no output '{}'{}", name, text.substr(dot + 1),
-                       port_hint(text.substr(dot + 1), ports_of(*maker, PortDirection::out), "outputs")));
+    report(source.place(), fmt::format("node '{}' has no output '{}'{}", name, port,
+                                       port_hint(port, ports_of(*maker, PortDirection::out), "outputs")));
   }
   return output;
+}
+
+std::string GraphBuilder::no_node_above(std::size_t i, const std::string& name) const {
+  const auto& nodes = graph_.nodes_;
+  if (nodes[i].name == name) return fmt::format("node '{}' cannot use its own output", name);
+  std::vector<std::string> above;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (k < i) above.push_back(nodes[k].name);
+    if (k > i && nodes[k].name == name)
+      return fmt::format("node '{}' is below; nodes use only what was made above them", name);
+  }
+  return fmt::format("no node '{}' above{}", name, suggestion(name, above));
 }
 
 void GraphBuilder::report_unwired(std::size_t i, const PortBase& input) {

@@ -70,7 +70,7 @@ TEST_CASE("a provider that first runs too late") {
         "g.yaml:6:27: node 'weigh' needs 'prediction' on the belief in frame 1, but node 'look', which gives it, first "
         "runs in frame 5");
   CHECK(mistakes(node("init", "map.toy", ", when: {at_end: true}") + kWalk) ==
-        "g.yaml:5:26: node 'walk' needs 'belief' on the belief in frame 1, but node 'init', which gives it, runs only "
+        "g.yaml:5:26: node 'walk' needs a belief in frame 1, but node 'init', which gives it, runs only "
         "after the last frame");
 }
 
