@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "tests/map_update/analytic_scene.hpp"
+#include "framework/graph/harness.hpp"
+#include "modules/builtin.hpp"
+
+#include "tests/map_update/box_world.hpp"
 #include "tests/map_update/mapper.hpp"
 
 using namespace ppm;
@@ -10,8 +14,8 @@ namespace {
 
 constexpr double kSigma = 0.004;
 
-AnalyticScene room_with_box() {
-  AnalyticScene scene;
+BoxWorld room_with_box() {
+  BoxWorld scene;
   scene.boxes.emplace_back(Eigen::Vector3d(-0.3, 0.4, 1.5), Eigen::Vector3d(0.3, 1.2, 2.1));
   return scene;
 }
@@ -20,7 +24,7 @@ AnalyticScene room_with_box() {
 struct Agreement {
   double coverage, error_m;
 };
-Agreement agreement(Mapper& mapper, const AnalyticScene& scene, const Pose& pose, double share) {
+Agreement agreement(Mapper& mapper, const BoxWorld& scene, const Pose& pose, double share) {
   const Camera camera = small_camera();
   const auto seen = mapper.predict(camera, pose);
   std::vector<double> errors;
@@ -40,7 +44,7 @@ Agreement agreement(Mapper& mapper, const AnalyticScene& scene, const Pose& pose
 }  // namespace
 
 TEST_CASE("one image of a flat wall gives a few large faces that lie on it") {
-  AnalyticScene scene;
+  BoxWorld scene;
   Mapper mapper;
   const Pose pose = look({0, 0, 1.8});  // nothing but the far wall in view
   mapper.add(scene.frame(small_camera(), pose, kSigma, 0, false));
@@ -50,11 +54,104 @@ TEST_CASE("one image of a flat wall gives a few large faces that lie on it") {
   CHECK(a.error_m < 1e-4);
 }
 
-TEST_CASE("views of a room from all sides make one map that agrees with the room") {
+TEST_CASE("views of a room from all sides make one map, of one layer, that agrees with the room") {
   const auto scene = room_with_box();
   Mapper mapper;
   for (int i = 0; i < 24; ++i) mapper.add(scene.frame(small_camera(), look({0.2, 0, 0.2}, 0.05 * i - 0.6, 0.1), kSigma, static_cast<std::uint32_t>(i), true));
+  CHECK(mapper.second_layers(small_camera(), look({0.2, 0, 0.2}, 0.1, 0.1)) < 0.002);
   const auto a = agreement(mapper, scene, look({0.22, 0.02, 0.2}, 0.1, 0.12), 0.95);
   CHECK(a.coverage > 0.93);
   CHECK(a.error_m < 0.02);
+}
+
+TEST_CASE("a second view that overlaps the first is stitched to it: no crack, no second layer") {
+  const BoxWorld scene;
+  Mapper mapper;
+  mapper.add(scene.frame(small_camera(), look({-0.3, 0, 1.5}), kSigma, 0, false));
+  mapper.add(scene.frame(small_camera(), look({0.3, 0, 1.5}), kSigma, 1, false));
+  const auto middle = look({0, 0, 1.5});
+  CHECK(mapper.second_layers(small_camera(), middle) == 0);
+  const auto seen = mapper.predict(small_camera(), middle);
+  int misses = 0;
+  for (int y = 2; y < 58; ++y)
+    for (int x = 2; x < 78; ++x) misses += !seen.hit(static_cast<std::size_t>(y * 80 + x));
+  CHECK(misses == 0);
+}
+
+TEST_CASE("an update with nothing new changes no face") {
+  const auto scene = room_with_box();
+  Mapper mapper;
+  for (int i = 0; i < 6; ++i) mapper.add(scene.frame(small_camera(), look({0, 0, 0}), kSigma, 0, false));
+  const auto faces = mapper.map().stats().faces;
+  for (int i = 0; i < 4; ++i) mapper.add(scene.frame(small_camera(), look({0, 0, 0}), kSigma, 0, false));
+  CHECK(mapper.map().stats().faces == faces);
+}
+
+TEST_CASE("a box that appears gets faces of its own; one that goes away is seen through and goes") {
+  BoxWorld empty, full = room_with_box();
+  Mapper mapper;
+  std::uint32_t i = 0;
+  const Pose pose = look({0, 0, 0.3}, 0, -0.15);
+  const auto add = [&](const BoxWorld& scene, int frames) {
+    for (int k = 0; k < frames; ++k, ++i) mapper.add(scene.frame(small_camera(), pose, kSigma, i, true));
+  };
+  const auto error = [&](const BoxWorld& scene) { return agreement(mapper, scene, pose, 0.97).error_m; };
+  add(empty, 3);
+  CHECK(error(empty) < 0.03);
+  CHECK(error(full) > 0.1);
+  add(full, 3);
+  CHECK(error(full) < 0.03);
+  add(empty, 16);
+  CHECK(error(empty) < 0.03);
+}
+
+TEST_CASE("invariants hold after every frame of a random path through a cluttered room") {
+  BoxWorld scene = room_with_box();
+  Rng rng(5, 0, 0, purpose_key("path"));
+  for (int b = 0; b < 6; ++b) {
+    const Eigen::Vector3d low(3 * rng.uniform() - 1.5, 2 * rng.uniform() - 1, 1 + 1.5 * rng.uniform());
+    scene.boxes.emplace_back(low, low + Eigen::Vector3d(0.1 + 0.4 * rng.uniform(), 0.1 + 0.4 * rng.uniform(), 0.1 + 0.4 * rng.uniform()));
+  }
+  PpmSettings small_cells;
+  small_cells.cell_size_m = 0.4;  // many chunk borders
+  Mapper mapper({}, small_cells);
+  for (std::uint32_t i = 0; i < 25; ++i) {
+    const Pose pose = look({0.6 * rng.uniform() - 0.3, 0.4 * rng.uniform() - 0.2, 0.5 * rng.uniform() - 0.5}, rng.uniform() - 0.5, 0.6 * rng.uniform() - 0.3);
+    mapper.add(scene.frame(small_camera(), pose, kSigma, i, true));  // checks the map
+  }
+  CHECK(mapper.map().stats().chunks > 30);
+}
+
+TEST_CASE("map_update.ppm_bayes gives the same bytes for 1, 2 and 4 threads, and leaves other particles' maps alone") {
+  Registry registry;
+  register_builtin(registry);
+  const auto scene = room_with_box();
+  std::vector<std::string> digests;
+  for (int threads : {1, 2, 4}) {
+    Harness h(registry, "map_update.ppm_bayes", "{}", threads);
+    EmbreeScenes scenes{EmbreeOptions{}};
+    const Workers workers(1);
+    const auto empty = std::make_shared<const PpmMap>(PpmSettings{});
+    h.belief().init(5, look({0, 0, 0}), empty);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      auto frame = std::make_shared<const Frame>(scene.frame(small_camera(), look({0, 0, 0}), kSigma, i, true));
+      h.input<Frame>("frame", frame);
+      for (std::size_t k = 0; k < h.belief().size(); ++k) {
+        h.belief().pose[k] = look({0.002 * static_cast<double>(k), 0, 0}, 0.01 * static_cast<double>(k) * i);
+        const auto& map = static_cast<const PpmMap&>(*h.belief().map[k]);
+        scenes.update({&map}, workers);
+        auto seen = std::make_shared<Prediction>();
+        seen->reset(small_camera(), 1, h.belief().pose[k]);
+        trace_view(map, scenes.of(map), EmbreeViewOptions{}, *seen);
+        h.belief().prediction[k] = seen;
+      }
+      h.tick();
+    }
+    CHECK(empty->stats().faces == 0);
+    Digest digest;
+    for (const auto& map : h.belief().map) map->digest(digest);
+    digests.push_back(digest.hex());
+  }
+  CHECK(digests[0] == digests[1]);
+  CHECK(digests[0] == digests[2]);
 }

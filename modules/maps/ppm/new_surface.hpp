@@ -11,7 +11,7 @@ namespace ppm {
 
 struct NewSurfaceSettings {
   QuadtreeSettings leaves;
-  int smooth_radius = 2;          ///< px, of the smoothing of disparity that leaves are fitted to
+  int smooth_radius = 1;          ///< px, of the smoothing of disparity that leaves are fitted to
   float smooth_sigmas = 3;
   float corner_sigmas = 3;        ///< a leaf's corner must fit its own pixel to so many sigmas
   float gap_vertex_px = 0.7f;     ///< corners nearer to a boundary vertex are dropped, and ...

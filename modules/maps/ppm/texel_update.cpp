@@ -39,13 +39,13 @@ void gather_node(const UpdateView& view, const TexelSettings& settings, const Fa
     return;
   const auto nearest = view.at(static_cast<int>(image.x() + 0.5f), static_cast<int>(image.y() + 0.5f));
   if (!view.measured(nearest)) return;
-  const float cosine = UpdateView::facing(plane.normal, node);
+  const float cosine = std::max(UpdateView::facing(plane.normal, node), settings.gate.least_cosine);
   const float sigma = view.sigma[nearest];
   const float limit = settings.gate_sigmas * settings.gate.spread(sigma, cosine, variance);
   float offset = 0;
   if (!interpolate(view, plane, image.x(), image.y(), mean, limit, offset)) return;
   const float pixel = image.z() * view.inv_fx;
-  const float footprint = pixel * pixel / std::max(cosine, settings.gate.least_cosine);
+  const float footprint = pixel * pixel / cosine;
   const float share = std::min(1.0f, plane.texel_area / footprint);
   fuse(mean, variance, offset, variance_along_normal(sigma, cosine, settings.lateral_px * pixel) / share);
 }
@@ -55,8 +55,9 @@ void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::s
   const auto& geometry = *edit.map().table()[seen.chunk[p]].geometry;
   const auto f = seen.face[p];
   const Eigen::Vector3f normal = geometry.face_normal(f);
-  const float cosine = UpdateView::facing(normal, view.point[p]);
-  if (cosine <= 0) return;
+  const float facing = UpdateView::facing(normal, view.point[p]);
+  if (facing <= 0) return;
+  const float cosine = std::max(facing, settings.gate.least_cosine);
   const auto t = geometry.first_texel[f] + nearest_texel(geometry.divisions[f], seen.bary[2 * p], seen.bary[2 * p + 1]);
   Texels& texels = edit.texels(seen.chunk[p]);
   const float offset = normal.dot(view.point[p] - view.relative(geometry.position[geometry.face[f][0]]));

@@ -19,7 +19,7 @@ struct TexelSettings {
   TexelForm form = TexelForm::gather;
   SurfaceGate gate;
   float gate_sigmas = 3;     ///< measurements farther from the texel's surface than so many gate spreads are left out
-  float lateral_px = 0.25f;  ///< px, the sensor's uncertainty across the line of sight
+  float lateral_px = 0.5f;   ///< px, the sensor's uncertainty across the line of sight
 };
 
 /// Variance of a measured point along a surface's normal: that of its depth and that of its place in the image, each as far as the
@@ -28,9 +28,9 @@ float variance_along_normal(float sigma, float cosine, float lateral);
 
 /// Conjugate Gaussian: fuses a measurement (offset, variance) into a texel (mean, variance). Source: paper, section 4.3.
 inline void fuse(float& mean, float& variance, float offset, float measured_variance) {
-  const float gain = variance / (variance + measured_variance);
-  mean += gain * (offset - mean);
-  variance *= 1 - gain;
+  const float sum = variance + measured_variance;
+  mean += variance / sum * (offset - mean);
+  variance = variance * measured_variance / sum;
 }
 
 /// The gather form for one face, of the map or new. corner: relative to the view's centre, in winding order; mean, variance

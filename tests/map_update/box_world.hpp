@@ -11,7 +11,7 @@
 namespace ppm::test {
 
 /// A world of axis-parallel boxes inside a room, with exact depth images.
-struct AnalyticScene {
+struct BoxWorld {
   Eigen::AlignedBox3d room{Eigen::Vector3d(-2, -1.2, -1), Eigen::Vector3d(2, 1.2, 3)};
   std::vector<Eigen::AlignedBox3d> boxes;
 

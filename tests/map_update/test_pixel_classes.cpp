@@ -1,0 +1,99 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "modules/maps/ppm/face_votes.hpp"
+#include "modules/maps/ppm/pixel_classes.hpp"
+#include "modules/maps/ppm/triangle_test.hpp"
+#include "tests/map_update/views.hpp"
+
+using namespace ppm;
+using namespace ppm::test;
+
+namespace {
+
+std::vector<std::uint8_t> classes_of(const std::function<float(int, int)>& measured, const std::function<float(int, int)>& predicted,
+                                     const std::vector<std::uint8_t>& gone = {}) {
+  const Frame frame = frame_of(measured);
+  const Prediction seen = prediction_of(predicted);
+  UpdateView view;
+  view.build(frame, seen);
+  std::vector<std::uint8_t> classes;
+  classify_pixels(view, SurfaceGate{}, 4, gone, classes);
+  return classes;
+}
+
+constexpr auto wall = [](int, int) { return 2.0f; };
+constexpr auto nothing = [](int, int) { return NAN; };
+constexpr std::size_t kMiddle = 30 * 80 + 40;
+
+}  // namespace
+
+TEST_CASE("a pixel within the gate is an own hit; in front of it, something new; behind it, seen through") {
+  // One spread is sqrt(0.004^2 + 0.01^2) = 10.8 mm; the gate is at 43 mm.
+  CHECK(classes_of([](int, int) { return 1.96f; }, wall)[kMiddle] == (kOwnHit | kExplained));
+  CHECK(classes_of([](int, int) { return 2.04f; }, wall)[kMiddle] == (kOwnHit | kExplained));
+  CHECK(classes_of([](int, int) { return 1.95f; }, wall)[kMiddle] == (kInFront | kWanted));
+  CHECK(classes_of([](int, int) { return 2.05f; }, wall)[kMiddle] == kBehind);
+  CHECK(classes_of(wall, nothing)[kMiddle] == kWanted);
+  CHECK(classes_of(nothing, wall)[kMiddle] == 0);
+}
+
+TEST_CASE("a miss beside a surface that would explain it is explained, but no own hit") {
+  const auto hole = [](int x, int y) { return x == 40 && y == 30 ? NAN : 2.0f; };
+  CHECK(classes_of(wall, hole)[kMiddle] == kExplained);
+  const auto wide_hole = [](int x, int y) { return std::abs(x - 40) < 3 && std::abs(y - 30) < 3 ? NAN : 2.0f; };
+  CHECK(classes_of(wall, wide_hole)[kMiddle] == kWanted);
+}
+
+TEST_CASE("pixels of deleted faces count as misses, also for their neighbours") {
+  const std::vector<std::uint8_t> gone(80 * 60, 1);
+  CHECK(classes_of(wall, wall, gone)[kMiddle] == kWanted);
+}
+
+TEST_CASE("opening removes what is thinner than 2 r + 1 pixels, but for what the image's edge or missing pixels cut") {
+  const int cols = 12, rows = 9;
+  const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * cols + x); };
+  std::vector<std::uint8_t> mask(static_cast<std::size_t>(cols * rows), 0), ignored = mask;
+  for (int y = 0; y < rows; ++y) {
+    mask[at(0, y)] = mask[at(1, y)] = 1;                // two columns at the left edge: the rest of them may lie beyond it
+    mask[at(5, y)] = mask[at(6, y)] = 1;                // two columns inside: too thin
+    mask[at(9, y)] = mask[at(10, y)] = 1;               // two columns and an unmeasured one
+    ignored[at(8, y)] = 1;
+  }
+  open_mask(cols, rows, 1, ignored, mask);
+  CHECK(mask[at(0, 4)] == 1);
+  CHECK(mask[at(5, 4)] == 0);
+  CHECK(mask[at(9, 4)] == 1);
+  CHECK(mask[at(8, 4)] == 0);
+}
+
+TEST_CASE("a triangle is surface where the measurement lies on it") {
+  const Frame frame = frame_of(wall);
+  const Prediction none = prediction_of(nothing);
+  UpdateView view;
+  view.build(frame, none);
+  std::vector<std::uint8_t> classes(frame.depth.size(), kWanted);
+  const std::array<Eigen::Vector2f, 3> pixel{Eigen::Vector2f(30, 20), Eigen::Vector2f(30, 30), Eigen::Vector2f(42, 20)};
+  const auto corner = [&](float z0, float z1, float z2) {
+    return std::array<Eigen::Vector3f, 3>{view.ray(30, 20) * z0, view.ray(30, 30) * z1, view.ray(42, 20) * z2};
+  };
+  CHECK(is_surface(view, classes, {}, corner(2, 2, 2), pixel));
+  CHECK_FALSE(is_surface(view, classes, {}, corner(1.9f, 1.9f, 1.9f), pixel));  // floats in front
+  CHECK_FALSE(is_surface(view, classes, {}, corner(2, 2, 1.2f), pixel));        // spans a jump
+  CHECK_FALSE(is_surface(view, classes, {}, corner(2, 2.0f, 2), {pixel[0], pixel[2], pixel[1]}) == false);
+
+  std::fill(classes.begin(), classes.end(), std::uint8_t{kOwnHit | kExplained});
+  CHECK_FALSE(is_surface(view, classes, {}, corner(2, 2, 2), pixel));  // the map has it already
+}
+
+TEST_CASE("a triangle through flying pixels is refused, though the measurement lies on it") {
+  // Pixels that mix a near and a far surface: a ramp of 1 m over three pixels.
+  const Frame frame = frame_of([](int x, int) { return x < 39 ? 1.0f : x > 42 ? 2.0f : 1.0f + 0.25f * static_cast<float>(x - 38); });
+  const Prediction none = prediction_of(nothing);
+  UpdateView view;
+  view.build(frame, none);
+  const std::vector<std::uint8_t> classes(frame.depth.size(), kWanted);
+  const std::array<Eigen::Vector2f, 3> pixel{Eigen::Vector2f(38, 20), Eigen::Vector2f(38, 24), Eigen::Vector2f(42, 20)};
+  const std::array<Eigen::Vector3f, 3> corner{view.ray(38, 20) * 1.0f, view.ray(38, 24) * 1.0f, view.ray(42, 20) * 2.0f};
+  CHECK_FALSE(is_surface(view, classes, {}, corner, pixel));
+}
