@@ -73,27 +73,21 @@ void Params::parse(const Config* values, const std::string& owner, const Place& 
                                                 kind_name(values->kind()))});
     return;
   }
-  const std::size_t before = out.size();
   if (values)
     for (const auto& entry : values->entries()) assign(entry, owner, out);
   for (const auto& spec : specs_)
     if (spec.is_required() && !(values && values->find(spec.name())))
       out.push_back({place, fmt::format("{} needs the parameter '{}'", owner, spec.name())});
-  // A check may look at other parameters: it means something only where nothing is wrong.
-  if (out.size() != before) return;
-  for (const auto& spec : specs_) {
-    const std::string mistake = spec.check_ ? spec.check_() : "";
-    if (mistake.empty()) continue;
-    const Config* value = values ? values->find(spec.name()) : nullptr;
-    out.push_back({value ? value->place() : place, fmt::format("{}: {}", spec.name(), mistake)});
-  }
 }
 
 void Params::assign(const Config::Entry& entry, const std::string& owner, Diagnostics& out) {
   for (auto& spec : specs_) {
     if (spec.name() != entry.key) continue;
-    if (auto mistake = spec.assign(entry.value))
-      out.push_back({mistake->place, fmt::format("{}: {}", spec.name(), mistake->message)});
+    auto mistake = spec.assign(entry.value);
+    if (!mistake && spec.check_) {
+      if (auto wrong = spec.check_(); !wrong.empty()) mistake = Diagnostic{entry.value.place(), std::move(wrong)};
+    }
+    if (mistake) out.push_back({mistake->place, fmt::format("{}: {}", spec.name(), mistake->message)});
     return;
   }
   out.push_back({entry.key_place, unknown_key(entry.key, owner, specs_)});

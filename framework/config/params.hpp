@@ -28,8 +28,7 @@ class ParamSpec {
   ParamSpec& doc(std::string text);                    ///< one or more sentences, ends with a full stop
   ParamSpec& required();                               ///< has no default
   ParamSpec& choices(std::vector<std::string> names);  ///< for texts; the type becomes choice
-  /// A further check, made when all parameters have been set, so that it may look at others: returns "" or what is
-  /// wrong.
+  /// A further check of a value that was given: looks at the bound member, returns "" or what is wrong.
   ParamSpec& check(std::function<std::string()> f);
 
   const std::string& name() const { return name_; }

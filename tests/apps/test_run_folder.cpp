@@ -62,6 +62,7 @@ TEST_CASE("input that cannot be read leaves nothing, and an earlier run untouche
   const std::string graph = (room.folder / "broken.yaml").string();
   fs::create_directory(room.folder / "images");
   write_text(room.folder / "images/frame-000000.depth.png", "\x89PNG\r\n\x1a\n cut short");
+  write_text(room.folder / "images/camera-intrinsics.txt", "525 0 319.5\n0 525 239.5\n0 0 1\n");
   write_text(room.folder / "images/frame-000000.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
   write_text(graph,
              "name: broken\nnodes:\n  - {name: camera, module: source.seven_scenes, params: {path: \"" +
