@@ -19,9 +19,13 @@ double entropy(const std::vector<double>& log_weight) {
 Weighting::Weighting() : belief(this, {{"prediction"}, {}, {}}) {
   params_.add("pixels", pixels_)
       .range(0, 1e8)
-      .doc("About how many pixels of the predicted image to compare, on a regular grid (the finest that has no more); 0 compares all.");
+      .doc(
+          "About how many pixels of the predicted image to compare, on a regular grid (the finest that has no more); 0 "
+          "compares all.");
   params_.add_choice("phase", phase_, {{"centred", Phase::centred}, {"random", Phase::random}})
-      .doc("Where the grid of compared pixels starts: centred in every frame alike, or random for each frame (one grid for all particles).");
+      .doc(
+          "Where the grid of compared pixels starts: centred in every frame alike, or random for each frame (one grid "
+          "for all particles).");
 }
 
 void Weighting::before(Context& context) {

@@ -20,11 +20,14 @@ struct ViewScore {
 
 /// Base of every `weighting.*`: adds the log likelihood of a frame to every particle and normalises. It knows no map: a
 /// likelihood compares ranges only.
+/// Where no particle's map shows anything at a compared pixel, or no particle's new weight is finite, the weights stay
+/// as they were: a warning says so once, and the metric `degenerate` is 1 in that frame. A particle whose likelihood is
+/// no number gets weight 0.
+///
 /// belief   needs a prediction of the frame's own camera (any stride); changes log_weight only
-/// Where no particle's map shows anything at a compared pixel, or no particle's new weight is finite, the weights stay as they were:
-/// a warning says so once, and the metric `degenerate` is 1 in that frame. A particle whose likelihood is no number gets weight 0.
-/// metrics  ess, entropy (nats); of the best particle: residual (mean absolute, m), outlier_share (of hits), miss_share (of
-///          compared pixels); degenerate
+///
+/// metrics  ess, entropy (nats), degenerate; of the best particle: residual (mean absolute, m), outlier_share (of
+///          hits), miss_share (of compared pixels)
 class Weighting : public ParticleModule {
  public:
   In<Frame> frame{this, "frame", "The measured image."};
@@ -51,7 +54,7 @@ class Weighting : public ParticleModule {
 
   enum class Phase { centred, random } phase_ = Phase::centred;
   double phase_x_ = 0.5, phase_y_ = 0.5;  // of this frame, in steps
-  std::mutex mutex_;                      // guards measured_: made by the first tick of a frame, when the prediction's stride is known
+  std::mutex mutex_;  // guards measured_: made by the first tick of a frame, when the prediction's stride is known
   bool measured_made_ = false;
   MeasuredPixels measured_;
   PerWorker<RangeResiduals> residuals_;

@@ -8,8 +8,8 @@
 namespace ppm {
 namespace {
 
-// True where the depth at (x, y) is off the plane through its two neighbours, along the row or the column, by more than jump_m
-// and what the sensor's noise explains. Planes are linear in disparity, so a slope is no jump.
+// True where the depth at (x, y) is off the plane through its two neighbours, along the row or the column, by more than
+// jump_m and what the sensor's noise explains. Planes are linear in disparity, so a slope is no jump.
 bool at_jump(const Frame& frame, int x, int y, double jump_m) {
   const Camera& camera = frame.camera;
   auto index = [&](int px, int py) { return static_cast<std::size_t>(py * camera.cols + px); };

@@ -9,12 +9,14 @@ namespace ppm {
 
 /// Which pixels of a predicted image are compared with the measured one: a regular grid.
 struct PixelGrid {
-  int step = 1;                    ///< every step-th column and row of the predicted image
+  int step = 1;                  ///< every step-th column and row of the predicted image
   int first_x = 0, first_y = 0;  ///< in [0, step)
-  double jump_m = 0;  ///< pixels where the measured depth departs from a plane through its neighbours by more are left out; 0: none is
+  double jump_m = 0;  ///< pixels where the measured depth departs from a plane through its neighbours by more are left
+                      ///< out; 0: none is
 };
 
-/// The measured pixels of a frame that a likelihood looks at, as a structure of arrays; one entry a pixel with a return, row-major.
+/// The measured pixels of a frame that a likelihood looks at, as a structure of arrays; one entry a pixel with a
+/// return, row-major.
 struct MeasuredPixels {
   std::vector<std::uint32_t> pixel;  ///< index into the arrays of the Prediction
   std::vector<float> range;          ///< m along the ray
@@ -29,7 +31,8 @@ MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int 
 
 /// Measured against predicted ranges, one entry a measured pixel. Kept between calls for its memory.
 struct RangeResiduals {
-  std::vector<float> residual;      ///< m, measured minus expected range of the described surface; kMiss where the map shows nothing
+  std::vector<float>
+      residual;  ///< m, measured minus expected range of the described surface; kMiss where the map shows nothing
   std::vector<float> map_variance;  ///< m^2 of the expected range, from the map alone; 0 at a miss
   std::vector<float> cosine;        ///< |normal . direction|, at least Prediction::kMinCosine; 1 at a miss
   void compute(const MeasuredPixels& measured, const Prediction& prediction);

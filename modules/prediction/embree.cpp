@@ -11,12 +11,17 @@ namespace {
 
 using namespace ppm;
 
-const PpmMap& as_ppm(const Map& map) { return static_cast<const PpmMap&>(map); }
+const PpmMap& as_ppm(const Map& map) {
+  return static_cast<const PpmMap&>(map);
+}
 
 /// Predicts views of a mesh map by ray casting.
-/// prediction  range to the base face (not to the described surface), texel mean and variance at the hit, the face's normal;
-///             a face seen from its unobserved side is no hit unless `backfaces` says so
+///
+/// prediction  range to the base face (not to the described surface), texel mean and variance at the hit, the face's
+///             normal; a face seen from its unobserved side is no hit unless `backfaces` says so
+///
 /// metrics     scenes, built (acceleration structures alive; built in this frame), scenes_mb
+///
 /// source      paper, section 4.2; Wald et al., "Embree", SIGGRAPH 2014
 class EmbreePredictor final : public ViewPredictor {
  public:
@@ -26,11 +31,14 @@ class EmbreePredictor final : public ViewPredictor {
       return known ? "" : "must be 1, 4, 8 or 16";
     });
     params_.add("coherent", view_.coherent).doc("Tell Embree that the rays of a packet go much the same way.");
-    params_.add("robust", scene_.robust).doc("Watertight test of ray against triangle: no ray slips between two faces.");
+    params_.add("robust", scene_.robust)
+        .doc("Watertight test of ray against triangle: no ray slips between two faces.");
     params_.add_choice("build", scene_.build, {{"low", Build::low}, {"medium", Build::medium}, {"high", Build::high}})
         .doc("Quality of the acceleration structures: low builds fastest, high traces fastest.");
     params_.add_choice("backfaces", scene_.cull_back_faces, {{"cull", true}, {"hit", false}})
-        .doc("What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it there.");
+        .doc(
+            "What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it "
+            "there.");
     params_.add_choice("texel", view_.linear_texels, {{"nearest", false}, {"linear", true}})
         .doc("Mean and variance at a hit: of the nearest texel, or interpolated between texels.");
   }
@@ -69,6 +77,7 @@ class EmbreePredictor final : public ViewPredictor {
 }  // namespace
 
 PPM_MODULES(r) {
-  r.add<EmbreePredictor>("prediction.embree", "What each particle should see of its mesh map, by ray casting with Embree.",
+  r.add<EmbreePredictor>("prediction.embree",
+                         "What each particle should see of its mesh map, by ray casting with Embree.",
                          "paper, section 4.2; Wald et al., Embree, SIGGRAPH 2014");
 }

@@ -1,9 +1,8 @@
 #include "modules/prediction/embree_scene.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cstring>
+#include <embree3/rtcore.h>
 
 #include "framework/core/error.hpp"
 
@@ -28,11 +27,16 @@ RTCBuildQuality quality(EmbreeOptions::Build build) {
 
 const char* reason(RTCError error) {
   switch (error) {
-    case RTC_ERROR_OUT_OF_MEMORY: return "out of memory";
-    case RTC_ERROR_UNSUPPORTED_CPU: return "this processor lacks SSE2";
-    case RTC_ERROR_INVALID_ARGUMENT: return "invalid argument";
-    case RTC_ERROR_INVALID_OPERATION: return "invalid operation";
-    default: return "unknown error";
+    case RTC_ERROR_OUT_OF_MEMORY:
+      return "out of memory";
+    case RTC_ERROR_UNSUPPORTED_CPU:
+      return "this processor lacks SSE2";
+    case RTC_ERROR_INVALID_ARGUMENT:
+      return "invalid argument";
+    case RTC_ERROR_INVALID_OPERATION:
+      return "invalid operation";
+    default:
+      return "unknown error";
   }
 }
 
@@ -47,7 +51,9 @@ EmbreeDevice::EmbreeDevice(EmbreeOptions options) : options_(options), device_(r
   rtcSetDeviceMemoryMonitorFunction(device_, count, &bytes_);
 }
 
-EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
+EmbreeDevice::~EmbreeDevice() {
+  rtcReleaseDevice(device_);
+}
 
 void EmbreeDevice::check() const {
   const RTCError error = rtcGetDeviceError(device_);
@@ -78,6 +84,8 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Geometry& geometry) {
   device.check();
 }
 
-void EmbreeScene::Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
+void EmbreeScene::Release::operator()(RTCSceneTy* scene) const {
+  rtcReleaseScene(scene);
+}
 
 }  // namespace ppm

@@ -12,7 +12,7 @@ namespace ppm {
 
 /// How chunk scenes are built. Fixed for the life of a device.
 struct EmbreeOptions {
-  bool robust = true;          ///< watertight ray-triangle test: no ray slips between two faces that share an edge
+  bool robust = true;           ///< watertight ray-triangle test: no ray slips between two faces that share an edge
   bool cull_back_faces = true;  ///< faces seen from behind are no hits, the ray goes on
   enum class Build { low, medium, high } build = Build::medium;
 };
@@ -38,7 +38,8 @@ class EmbreeDevice {
   RTCDeviceTy* device_ = nullptr;
 };
 
-/// The acceleration structure of one chunk's Geometry. Holds a copy of the triangles: it needs the Geometry only while it is built.
+/// The acceleration structure of one chunk's Geometry. Holds a copy of the triangles: it needs the Geometry only while
+/// it is built.
 class EmbreeScene {
  public:
   /// Builds in the calling thread; several may be built at the same time. The geometry must have a face.

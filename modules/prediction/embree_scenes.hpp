@@ -10,8 +10,8 @@
 
 namespace ppm {
 
-/// The acceleration structures of all chunks of a set of maps, by Geometry::id: maps that share a chunk's shape share its scene,
-/// whatever their texels. update() builds what is missing and drops what none of the given maps uses.
+/// The acceleration structures of all chunks of a set of maps, by Geometry::id: maps that share a chunk's shape share
+/// its scene, whatever their texels. update() builds what is missing and drops what none of the given maps uses.
 /// update() needs the object for itself; of() may be called from any thread in between.
 class EmbreeScenes {
  public:

@@ -1,10 +1,9 @@
 #include "modules/prediction/embree_view.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <embree3/rtcore.h>
 
 #include "framework/core/error.hpp"
 #include "modules/maps/ppm/ppm_map.hpp"
@@ -151,7 +150,8 @@ class ViewTracer {
     }
   }
 
-  // Unit normals of the hits, turned towards the camera; side_: -1 where that turned them. Lanes without a hit hold rubbish.
+  // Unit normals of the hits, turned towards the camera; side_: -1 where that turned them. Lanes without a hit hold
+  // rubbish.
   void turn_normals() {
     float *nx = lanes(packet_.hit.Ng_x), *ny = lanes(packet_.hit.Ng_y), *nz = lanes(packet_.hit.Ng_z);
     const float *dx = lanes(packet_.ray.dir_x), *dy = lanes(packet_.ray.dir_y), *dz = lanes(packet_.ray.dir_z);
@@ -193,8 +193,9 @@ class ViewTracer {
   const EmbreeViewOptions& options_;
   Prediction& out_;
   RTCIntersectContext context_;
-  Eigen::Vector3f corner_, per_x_, per_y_;  // direction of pixel (x, y) before it is made unit: corner + x per_x + y per_y
-  float lane_x_[N], lane_y_[N];             // pixels of a packet from its first
+  Eigen::Vector3f corner_, per_x_,
+      per_y_;                    // direction of pixel (x, y) before it is made unit: corner + x per_x + y per_y
+  float lane_x_[N], lane_y_[N];  // pixels of a packet from its first
   typename P::RayHit packet_;
   alignas(64) int valid_[N];
   float side_[N];
@@ -206,11 +207,16 @@ class ViewTracer {
 void trace_view(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
                 Prediction& out) {
   switch (options.packet) {
-    case 1: return ViewTracer<1>(map, scenes, options, out).trace();
-    case 4: return ViewTracer<4>(map, scenes, options, out).trace();
-    case 8: return ViewTracer<8>(map, scenes, options, out).trace();
-    case 16: return ViewTracer<16>(map, scenes, options, out).trace();
-    default: PPM_CHECK(false, "packets of {} rays", options.packet);
+    case 1:
+      return ViewTracer<1>(map, scenes, options, out).trace();
+    case 4:
+      return ViewTracer<4>(map, scenes, options, out).trace();
+    case 8:
+      return ViewTracer<8>(map, scenes, options, out).trace();
+    case 16:
+      return ViewTracer<16>(map, scenes, options, out).trace();
+    default:
+      PPM_CHECK(false, "packets of {} rays", options.packet);
   }
 }
 

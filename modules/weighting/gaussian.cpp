@@ -9,15 +9,19 @@ namespace {
 
 using namespace ppm;
 
-/// The paper's likelihood: the product over pixels of N(measured - expected range; variance), where the texel's mean and
-/// variance are carried from the normal to the ray. Pixels where the map shows nothing are skipped, as in the paper: a particle
-/// that looks away from its map loses nothing by it.
+/// The paper's likelihood: the product over pixels of N(measured - expected range; variance), where the texel's mean
+/// and variance are carried from the normal to the ray. Pixels where the map shows nothing are skipped, as in the
+/// paper: a particle that looks away from its map loses nothing by it.
+///
 /// source  paper, section 4.2
 class GaussianWeighting final : public Weighting {
  public:
   GaussianWeighting() {
-    params_.add_choice("variance", variance_, {{"texel", Variance::texel}, {"texel_and_sensor", Variance::texel_and_sensor}})
-        .doc("Variance of a pixel: the texel's alone, as in the paper, or the predictive one, with the sensor's added.");
+    params_
+        .add_choice("variance", variance_,
+                    {{"texel", Variance::texel}, {"texel_and_sensor", Variance::texel_and_sensor}})
+        .doc(
+            "Variance of a pixel: the texel's alone, as in the paper, or the predictive one, with the sensor's added.");
   }
 
  protected:
@@ -48,5 +52,6 @@ class GaussianWeighting final : public Weighting {
 }  // namespace
 
 PPM_MODULES(r) {
-  r.add<GaussianWeighting>("weighting.gaussian", "Weighs particles by the product of Gaussians of all pixels.", "paper, section 4.2");
+  r.add<GaussianWeighting>("weighting.gaussian", "Weighs particles by the product of Gaussians of all pixels.",
+                           "paper, section 4.2");
 }

@@ -1,8 +1,8 @@
-// What a view of a mesh map costs by ray casting, and what the acceleration structures cost: docs/results/embree_scenes.md.
+// What a view of a mesh map costs by ray casting, and what the acceleration structures cost:
+// docs/results/embree_scenes.md.
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
-
 #include <cmath>
+#include <embree3/rtcore.h>
 #include <map>
 #include <memory>
 #include <vector>
@@ -28,7 +28,8 @@ void add_patch(TriangleMesh& mesh, Eigen::Vector3f o, Eigen::Vector3f a, Eigen::
   auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(j * (na + 1) + i); };
   for (int j = 0; j <= nb; ++j)
     for (int i = 0; i <= na; ++i) {
-      const Eigen::Vector3f p = o + static_cast<float>(i) / static_cast<float>(na) * a + static_cast<float>(j) / static_cast<float>(nb) * b;
+      const Eigen::Vector3f p =
+          o + static_cast<float>(i) / static_cast<float>(na) * a + static_cast<float>(j) / static_cast<float>(nb) * b;
       mesh.position.push_back(p + 0.02f * std::sin(7 * p.sum()) * normal);
     }
   for (int j = 0; j < nb; ++j)
@@ -81,7 +82,8 @@ Pose pose(int i) {
 }
 
 void report(benchmark::State& state, std::size_t hits) {
-  state.counters["Mray/s"] = benchmark::Counter(1e-6 * kCamera.pixels() * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["Mray/s"] = benchmark::Counter(1e-6 * kCamera.pixels() * static_cast<double>(state.iterations()),
+                                                benchmark::Counter::kIsRate);
   state.counters["hit"] = static_cast<double>(hits) / kCamera.pixels();
 }
 
@@ -108,7 +110,8 @@ void view(benchmark::State& state, EmbreeViewOptions options, EmbreeOptions scen
 // The alternative: one scene of instances of the chunks' scenes for each map. Ranges and ids only, no texels.
 class InstanceScene {
  public:
-  InstanceScene(RTCDevice device, const std::vector<std::unique_ptr<EmbreeScene>>& chunks) : scene_(rtcNewScene(device)) {
+  InstanceScene(RTCDevice device, const std::vector<std::unique_ptr<EmbreeScene>>& chunks)
+      : scene_(rtcNewScene(device)) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     for (std::size_t i = 0; i < chunks.size(); ++i) {
       if (!chunks[i]) continue;
@@ -211,7 +214,8 @@ void nothing_new(benchmark::State& state) {
   const Workers workers(1);
   std::vector<std::shared_ptr<const PpmMap>> copies;
   std::vector<const PpmMap*> maps;
-  for (int i = 0; i < state.range(1); ++i) maps.push_back(copies.emplace_back(std::make_shared<const PpmMap>(*map)).get());
+  for (int i = 0; i < state.range(1); ++i)
+    maps.push_back(copies.emplace_back(std::make_shared<const PpmMap>(*map)).get());
   EmbreeScenes scenes({});
   for (auto _ : state) scenes.update(maps, workers);
 }
@@ -224,7 +228,8 @@ void register_all() {
   auto add_view = [&](const std::string& name, EmbreeViewOptions v, EmbreeOptions s, double cell) {
     add(name, [=](benchmark::State& st) { view(st, v, s, cell); })->Arg(20000)->Arg(100000);
   };
-  for (int packet : {1, 4, 8, 16}) add_view("chunks_1m/packet:" + std::to_string(packet), {packet, true, false}, {}, 1.0);
+  for (int packet : {1, 4, 8, 16})
+    add_view("chunks_1m/packet:" + std::to_string(packet), {packet, true, false}, {}, 1.0);
   add_view("chunks_1m/incoherent", {16, false, false}, {}, 1.0);
   add_view("chunks_1m/fast_test", {16, true, false}, {false, true, {}}, 1.0);
   add_view("chunks_1m/backfaces_hit", {16, true, false}, {true, false, {}}, 1.0);
@@ -239,7 +244,9 @@ void register_all() {
   }
   using Build = EmbreeOptions::Build;
   for (auto [name, quality] : {std::pair{"low", Build::low}, {"medium", Build::medium}, {"high", Build::high}})
-    add(std::string("build/") + name, [q = quality](benchmark::State& st) { build(st, q); })->Args({100000, 1})->Args({100000, 2});
+    add(std::string("build/") + name, [q = quality](benchmark::State& st) { build(st, q); })
+        ->Args({100000, 1})
+        ->Args({100000, 2});
   add("update_nothing_new", nothing_new)->Args({100000, 1})->Args({100000, 100});
 }
 

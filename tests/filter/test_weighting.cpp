@@ -26,13 +26,15 @@ std::shared_ptr<Frame> wall_frame(const Camera& camera, float depth, float sigma
 }
 
 // The view of a plane z = depth of the camera frame whose texels say (mean, variance).
-std::shared_ptr<Prediction> wall_view(const Camera& camera, const Pose& pose, double depth, float mean, float variance) {
+std::shared_ptr<Prediction> wall_view(const Camera& camera, const Pose& pose, double depth, float mean,
+                                      float variance) {
   auto p = std::make_shared<Prediction>();
   p->reset(camera, 1, pose);
   const Eigen::Vector3f n = (pose.linear() * Eigen::Vector3d(0, 0, -1)).cast<float>();
   for (std::size_t i = 0; i < p->range.size(); ++i) {
     const auto cols = static_cast<std::size_t>(camera.cols);
-    p->range[i] = static_cast<float>(depth * camera.ray(static_cast<double>(i % cols), static_cast<double>(i / cols)).norm());
+    p->range[i] =
+        static_cast<float>(depth * camera.ray(static_cast<double>(i % cols), static_cast<double>(i / cols)).norm());
     p->mean[i] = mean;
     p->variance[i] = variance;
     for (std::size_t k = 0; k < 3; ++k) p->normal[3 * i + k] = n[static_cast<Eigen::Index>(k)];
@@ -79,7 +81,8 @@ const Pose kSomewhere = se3_exp((Twist() << 1, -2, 0.5, 0.3, -0.2, 0.7).finished
 
 TEST_CASE("weighting.gaussian is the product of the texels' Gaussians along the rays") {
   const auto frame = wall_frame(kTiny, 2.0f, 0.02f);
-  const auto a = wall_view(kTiny, kSomewhere, 2.01, 0.004f, 4e-4f), b = wall_view(kTiny, kSomewhere, 1.97, -0.01f, 9e-4f);
+  const auto a = wall_view(kTiny, kSomewhere, 2.01, 0.004f, 4e-4f),
+             b = wall_view(kTiny, kSomewhere, 1.97, -0.01f, 9e-4f);
   const double sensor = GENERATE(0.0, 1.0);
   double expected = 0;
   for (int y = 0; y < 2; ++y)
@@ -119,7 +122,8 @@ TEST_CASE("the particle that is right wins") {
   const std::string module = GENERATE("weighting.gaussian", "weighting.robust");
   const Camera camera{40, 30, 40, 40, 19.5, 14.5};
   const auto frame = wall_frame(camera, 2.0f, 0.01f);
-  const auto right = wall_view(camera, kSomewhere, 2.002, 0.0f, 1e-4f), wrong = wall_view(camera, kSomewhere, 2.06, 0.0f, 1e-4f);
+  const auto right = wall_view(camera, kSomewhere, 2.002, 0.0f, 1e-4f),
+             wrong = wall_view(camera, kSomewhere, 2.06, 0.0f, 1e-4f);
   CHECK(log_odds(module, "{}", frame, right, wrong) > 3);
   CHECK(log_odds(module, "{}", frame, wrong, right) < -3);
   CHECK(log_odds(module, "{}", frame, right, right) == Approx(0.0).margin(1e-12));
@@ -129,7 +133,8 @@ TEST_CASE("a particle that looks away from its map does not win with the density
   const Camera camera{40, 30, 40, 40, 19.5, 14.5};
   const auto frame = wall_frame(camera, 2.0f, 0.01f);
   // A surface that is known badly: the paper's product of densities is then below 1, the empty product's value.
-  const auto right = wall_view(camera, kSomewhere, 2.002, 0.0f, 1.0f), away = wall_view(camera, kSomewhere, 2.0, 0.0f, 1.0f);
+  const auto right = wall_view(camera, kSomewhere, 2.002, 0.0f, 1.0f),
+             away = wall_view(camera, kSomewhere, 2.0, 0.0f, 1.0f);
   for (std::size_t i = 0; i < away->range.size(); ++i)
     if (i % 40 > 5) forget(*away, i);
   CHECK(log_odds("weighting.robust", "{}", frame, right, away) > 1);
@@ -140,7 +145,8 @@ TEST_CASE("weights do not depend on the map's place, nor on a constant factor of
   const std::string module = GENERATE("weighting.gaussian", "weighting.robust");
   const auto frame = wall_frame(kTiny, 2.0f, 0.02f);
   auto odds_at = [&](const Pose& pose) {
-    return log_odds(module, "{}", frame, wall_view(kTiny, pose, 2.01, 0.001f, 4e-4f), wall_view(kTiny, pose, 1.97, 0, 4e-4f));
+    return log_odds(module, "{}", frame, wall_view(kTiny, pose, 2.01, 0.001f, 4e-4f),
+                    wall_view(kTiny, pose, 1.97, 0, 4e-4f));
   };
   CHECK(odds_at(kSomewhere) == Approx(odds_at(Pose::Identity())).epsilon(1e-4));
 
@@ -150,7 +156,8 @@ TEST_CASE("weights do not depend on the map's place, nor on a constant factor of
     Harness h(registry, module);
     h.belief().init(2, kSomewhere, nullptr);
     h.belief().log_weight = {std::log(0.25) + constant, std::log(0.75) + constant};
-    h.belief().prediction = {wall_view(kTiny, kSomewhere, 2.01, 0, 4e-4f), wall_view(kTiny, kSomewhere, 2.02, 0, 4e-4f)};
+    h.belief().prediction = {wall_view(kTiny, kSomewhere, 2.01, 0, 4e-4f),
+                             wall_view(kTiny, kSomewhere, 2.02, 0, 4e-4f)};
     h.input<Frame>("frame", frame);
     h.tick();
     weights.push_back(h.belief().log_weight);
@@ -206,7 +213,7 @@ TEST_CASE("metrics describe the best particle") {
   const Camera camera{40, 30, 40, 40, 19.5, 14.5};
   const auto frame = wall_frame(camera, 2.0f, 0.001f);
   const auto view = wall_view(camera, kSomewhere, 2.0, 0, 1e-6f);
-  for (std::size_t i = 0; i < 300; ++i) forget(*view, i);                             // 25 % of the pixels
+  for (std::size_t i = 0; i < 300; ++i) forget(*view, i);          // 25 % of the pixels
   for (std::size_t i = 300; i < 570; ++i) view->range[i] += 1.0f;  // 30 % of the hits
   const Registry registry = builtin();
   Harness h(registry, "weighting.robust", "{pixels: 0}");

@@ -14,10 +14,10 @@ struct OracleHit {
   double u = 0, v = 0;
 };
 
-/// Every crossing of the ray with a face of the map whose barycentrics are within the face grown by `slack` (a share of the
-/// face), unordered. direction: unit.
-inline std::vector<OracleHit> all_hits(const PpmMap& map, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                       bool cull_back_faces, double slack) {
+/// Every crossing of the ray with a face of the map whose barycentrics are within the face grown by `slack` (a share of
+/// the face), unordered. direction: unit.
+inline std::vector<OracleHit> all_hits(const PpmMap& map, const Eigen::Vector3d& origin,
+                                       const Eigen::Vector3d& direction, bool cull_back_faces, double slack) {
   std::vector<OracleHit> hits;
   for (std::uint32_t c = 0; c < map.table().size(); ++c) {
     const Geometry& g = *map.table()[c].geometry;

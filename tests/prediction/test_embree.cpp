@@ -27,8 +27,8 @@ std::shared_ptr<const Frame> frame_of(const Camera& camera) {
 }
 
 // Predictions of n particles around the origin that look at the maps in turn.
-std::vector<PredictionHandle> predictions(const std::string& params, std::vector<std::shared_ptr<const PpmMap>> maps, std::size_t n,
-                                          int threads = 1) {
+std::vector<PredictionHandle> predictions(const std::string& params, std::vector<std::shared_ptr<const PpmMap>> maps,
+                                          std::size_t n, int threads = 1) {
   const Registry registry = builtin();
   Harness h(registry, "prediction.embree", params, threads);
   h.input<Frame>("frame", frame_of(kCamera));

@@ -12,7 +12,8 @@ using namespace ppm::test;
 namespace {
 
 const Camera kCamera{37, 29, 30, 32, 18, 14};  // sides that no packet divides
-const Pose kAskew = se3_exp((Twist() << 0.013, -0.021, 0.1, 0.02, -0.01, 0.03).finished());  // off the grid of the height field
+const Pose kAskew =
+    se3_exp((Twist() << 0.013, -0.021, 0.1, 0.02, -0.01, 0.03).finished());  // off the grid of the height field
 
 Prediction view_of(const PpmMap& map, const Camera& camera, const Pose& pose, EmbreeViewOptions view = {},
                    EmbreeOptions options = {}) {
@@ -25,17 +26,19 @@ Prediction view_of(const PpmMap& map, const Camera& camera, const Pose& pose, Em
   return out;
 }
 
-// How far off a face, as a share of it, single precision may put a ray: an edge or a grazing face decides nothing below it.
+// How far off a face, as a share of it, single precision may put a ray: an edge or a grazing face decides nothing below
+// it.
 double slack_of(const Geometry& g, std::uint32_t f, double range, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d p0 = g.position[g.face[f][0]].cast<double>();
-  const Eigen::Vector3d e1 = g.position[g.face[f][1]].cast<double>() - p0, e2 = g.position[g.face[f][2]].cast<double>() - p0;
+  const Eigen::Vector3d e1 = g.position[g.face[f][1]].cast<double>() - p0,
+                        e2 = g.position[g.face[f][2]].cast<double>() - p0;
   const double height = e1.cross(e2).norm() / std::max({e1.norm(), e2.norm(), (e2 - e1).norm()});
   const double cosine = std::abs(e1.cross(e2).normalized().dot(direction));
   return 4e-6 * (1 + range) / (height * cosine + 1e-12);
 }
 
-// True where the pixel's answer is one that exact arithmetic could give within rounding: it hits a face that the ray meets (or
-// nearly does), and nothing that the ray surely meets is in front of it.
+// True where the pixel's answer is one that exact arithmetic could give within rounding: it hits a face that the ray
+// meets (or nearly does), and nothing that the ray surely meets is in front of it.
 bool explained(const PpmMap& map, const Prediction& p, std::size_t pixel, bool cull) {
   const Eigen::Vector3d origin = p.T_map_camera.translation(), d = p.direction(pixel);
   const auto wide = all_hits(map, origin, d, false, 0.5);
@@ -65,8 +68,8 @@ void compare(const PpmMap& map, const Pose& pose, const EmbreeViewOptions& view,
       CHECK(p.range[i] == Approx(exact.range).epsilon(2e-4).margin(2e-4));
       continue;
     }
-    INFO("pixel " << i << " chunk " << p.chunk[i] << " face " << p.face[i] << " range " << p.range[i] << " oracle chunk "
-                  << exact.chunk << " face " << exact.face << " range " << exact.range);
+    INFO("pixel " << i << " chunk " << p.chunk[i] << " face " << p.face[i] << " range " << p.range[i]
+                  << " oracle chunk " << exact.chunk << " face " << exact.face << " range " << exact.range);
     CHECK(explained(map, p, i, options.cull_back_faces));
   }
   CHECK(hits > 100);
@@ -101,7 +104,8 @@ TEST_CASE("views agree with brute force on triangle soups") {
 }
 
 TEST_CASE("views agree with brute force on a mesh cut into chunks, which leaves no cracks") {
-  const auto wave = height_field(24, 3.f, [](float x, float y) { return 2.f + 0.3f * std::sin(3 * x) * std::cos(2 * y); });
+  const auto wave =
+      height_field(24, 3.f, [](float x, float y) { return 2.f + 0.3f * std::sin(3 * x) * std::cos(2 * y); });
   PpmSettings settings;
   settings.cell_size_m = GENERATE(0.4, 1.0, 20.0);
   const auto map = make_map(wave, settings);

@@ -19,7 +19,8 @@ struct Face {
     texels.variance = texels.mean;
     for (std::uint32_t i = 0; i <= n; ++i)
       for (std::uint32_t j = 0; i + j <= n; ++j) {
-        const float u = static_cast<float>(i) / static_cast<float>(n), v = static_cast<float>(j) / static_cast<float>(n);
+        const float u = static_cast<float>(i) / static_cast<float>(n),
+                    v = static_cast<float>(j) / static_cast<float>(n);
         texels.mean[2 + texel_index(n, i, j)] = 1 + 2 * u - 3 * v;
         texels.variance[2 + texel_index(n, i, j)] = 5 + u + v;
       }
@@ -48,7 +49,13 @@ TEST_CASE("linear texels reproduce a linear texture, over the face and its borde
 
 TEST_CASE("texels at and beyond the corners, as rounding gives them") {
   const Face face(4);
-  for (auto [u, v] : {std::pair{0.f, 0.f}, {1.f, 0.f}, {0.f, 1.f}, {-1e-6f, 0.5f}, {0.5f, 0.500001f}, {1.000001f, 0.f}, {1.f, 1e-6f}}) {
+  for (auto [u, v] : {std::pair{0.f, 0.f},
+                      {1.f, 0.f},
+                      {0.f, 1.f},
+                      {-1e-6f, 0.5f},
+                      {0.5f, 0.500001f},
+                      {1.000001f, 0.f},
+                      {1.f, 1e-6f}}) {
     CAPTURE(u, v);
     CHECK(linear_sample(face.geometry, face.texels, 0, u, v).mean == Approx(1 + 2 * u - 3 * v).margin(1e-4));
     CHECK(nearest_sample(face.geometry, face.texels, 0, u, v).mean == Approx(1 + 2 * u - 3 * v).margin(0.6));

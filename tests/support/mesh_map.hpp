@@ -27,7 +27,8 @@ std::shared_ptr<const PpmMap> make_map(const TriangleMesh& mesh, const PpmSettin
     std::vector<float> mean(texel_count(n)), variance(texel_count(n), 1e-4f);
     for (std::uint32_t i = 0; i <= n; ++i)
       for (std::uint32_t j = 0; i + j <= n; ++j) {
-        const float u = static_cast<float>(i) / static_cast<float>(n), v = static_cast<float>(j) / static_cast<float>(n);
+        const float u = static_cast<float>(i) / static_cast<float>(n),
+                    v = static_cast<float>(j) / static_cast<float>(n);
         mean[texel_index(n, i, j)] = mean_of(Eigen::Vector3f((1 - u - v) * a + u * b + v * c));
       }
     edit.add_face({id[f[0]], id[f[1]], id[f[2]]}, static_cast<std::uint8_t>(n), mean, variance);
@@ -38,7 +39,8 @@ inline std::shared_ptr<const PpmMap> make_map(const TriangleMesh& mesh, const Pp
   return make_map(mesh, settings, [](const Eigen::Vector3f&) { return 0.f; });
 }
 
-/// A height field z = height(x, y) over [-half, half]^2 with n x n squares, seen from -z (free space is towards smaller z).
+/// A height field z = height(x, y) over [-half, half]^2 with n x n squares, seen from -z (free space is towards smaller
+/// z).
 template <class Height>
 TriangleMesh height_field(int n, float half, Height&& height) {
   TriangleMesh mesh;

@@ -15,8 +15,9 @@ inline TexelSample nearest_sample(const Geometry& geometry, const Texels& texels
   return {texels.mean[t], texels.variance[t]};
 }
 
-/// Mean and variance interpolated linearly over the small triangle of texels around (u, v). The variance is interpolated like
-/// the mean: neighbours see the same surface with much the same error, so averaging them does not lower it.
+/// Mean and variance interpolated linearly over the small triangle of texels around (u, v). The variance is
+/// interpolated like the mean: neighbours see the same surface with much the same error, so averaging them does not
+/// lower it.
 inline TexelSample linear_sample(const Geometry& geometry, const Texels& texels, std::uint32_t f, float u, float v) {
   const TexelTriangle t = texel_triangle(geometry.divisions[f], u, v);
   const float* mean = &texels.mean[geometry.first_texel[f]];
