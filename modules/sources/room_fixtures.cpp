@@ -11,9 +11,9 @@ void add_bookshelf(SceneBuilder& s, const Isometry3d& T) {
   constexpr int kShelves = 5;
   s.begin_object("bookshelf", T);
   for (double y : {-1.0, 0.0, 1.0})
-    box(s, {0, y * (kWidth / 2 - 0.0125), kHeight / 2}, {kDepth, 0.025, kHeight}, kWalnut);
-  box(s, {-kDepth / 2 + 0.005, 0, kHeight / 2}, {0.01, kWidth, kHeight}, kWalnut);
-  for (int k = 0; k <= kShelves; ++k) box(s, {0, 0, 0.06 + 0.385 * k}, {kDepth, kWidth, 0.025}, kWalnut);
+    box(s, {0, y * (kWidth / 2 - 0.0125), kHeight / 2}, {kDepth, 0.025, kHeight}, kOak);
+  box(s, {-kDepth / 2 + 0.005, 0, kHeight / 2}, {0.01, kWidth, kHeight}, kOak);
+  for (int k = 0; k <= kShelves; ++k) box(s, {0, 0, 0.06 + 0.385 * k}, {kDepth, kWidth, 0.025}, kOak);
 
   const Color covers[] = {kRed, kBlue, kCream, kGreen, kYellow, kTerracotta, kWhite, Color(0.45f, 0.32f, 0.50f)};
   for (int shelf = 0; shelf < kShelves; ++shelf) {
@@ -21,18 +21,16 @@ void add_bookshelf(SceneBuilder& s, const Isometry3d& T) {
     const double floor = 0.0725 + 0.385 * shelf;
     for (int half = 0; half < 2; ++half) {
       double y = half == 0 ? -0.81 : 0.04;
-      const int count = 5 + (shelf * 3 + half * 2) % 5;
-      for (int i = 0; i < count; ++i) {  // sizes that look random and are not
+      const int count = 6 + (shelf + 2 * half) % 4;
+      for (int i = 0; i < count; ++i) {  // sizes that look random and are not; fronts nearly in line, as books stand
         const int h = (shelf * 37 + half * 17 + i * 11) % 13;
-        const double thick = 0.025 + 0.004 * h, high = 0.19 + 0.010 * ((h * 5) % 13),
-                     deep = 0.16 + 0.007 * ((h * 7) % 13);
-        box(s, {-kDepth / 2 + 0.015 + deep / 2, y + thick / 2, floor + high / 2}, {deep, thick, high},
-            covers[(h + i) % 8]);
-        y += thick + 0.003;
+        const double thick = 0.040 + 0.003 * h, high = 0.22 + 0.007 * ((h * 5) % 13), deep = 0.27 + 0.002 * ((h * 7) % 13);
+        box(s, {-kDepth / 2 + 0.01 + deep / 2, y + thick / 2, floor + high / 2}, {deep, thick, high}, covers[(h + i) % 8]);
+        y += thick;
       }
-      if ((shelf + half) % 3 == 0) cylinder(s, {0.02, y + 0.15, floor + 0.11}, 0.07, 0.22, kBlue);
-      if ((shelf + half) % 3 == 1) sphere(s, {0.02, y + 0.13, floor + 0.085}, 0.085, kTerracotta);
-      if ((shelf + half) % 3 == 2) box(s, {0.02, y + 0.14, floor + 0.07}, {0.20, 0.18, 0.14}, kCream, yaw(12));
+      if ((shelf + half) % 3 == 0) cylinder(s, {0.04, y + 0.12, floor + 0.11}, 0.08, 0.22, kBlue);
+      if ((shelf + half) % 3 == 1) sphere(s, {0.04, y + 0.13, floor + 0.10}, 0.10, kTerracotta);
+      if ((shelf + half) % 3 == 2) box(s, {0.03, y + 0.14, floor + 0.08}, {0.22, 0.20, 0.16}, kCream, yaw(12));
     }
   }
 }
@@ -78,8 +76,8 @@ void add_window(SceneBuilder& s, const Isometry3d& T) {
   for (double z : {0.89, 1.72, 2.11}) box(s, {0.03, 0, z}, {0.06, 1.67, 0.07}, kWhite);
   box(s, {0.09, 0, 0.85}, {0.20, 1.80, 0.03}, kWhite);
   s.begin_object("radiator", T);
-  for (int i = 0; i < 14; ++i) box(s, {0.08, -0.65 + 0.1 * i, 0.44}, {0.09, 0.06, 0.58}, kWhite);
-  for (double z : {0.22, 0.66}) box(s, {0.07, 0, z}, {0.05, 1.36, 0.05}, kWhite);
+  box(s, {0.075, 0, 0.44}, {0.07, 1.40, 0.56}, kWhite);
+  for (int i = 0; i < 7; ++i) box(s, {0.115, -0.60 + 0.2 * i, 0.44}, {0.02, 0.10, 0.50}, kWhite);
   s.begin_object("curtains", T);
   for (double side : {-1.0, 1.0})
     for (int i = 0; i < 6; ++i)

@@ -88,10 +88,10 @@ void add_plant(SceneBuilder& s, const Isometry3d& T) {
   s.begin_object("plant", T);
   cylinder(s, {0, 0, 0.19}, 0.19, 0.38, kTerracotta);
   cylinder(s, {0, 0, 0.60}, 0.025, 0.50, kWalnut);
-  for (int i = 0; i < 9; ++i) {  // a crown of round leaves on a spiral
-    const double a = 2.4 * i, r = 0.08 + 0.015 * i;
-    sphere(s, {r * std::cos(a), r * std::sin(a), 0.78 + 0.065 * i}, 0.15 - 0.007 * i,
-           kGreen * (0.8f + 0.06f * static_cast<float>(i)));
+  for (int i = 0; i < 7; ++i) {  // a crown of round leaves on a spiral
+    const double a = 2.4 * i, r = 0.10 + 0.012 * i;
+    sphere(s, {r * std::cos(a), r * std::sin(a), 0.80 + 0.075 * i}, 0.19 - 0.008 * i,
+           kGreen * (0.9f + 0.08f * static_cast<float>(i)));
   }
 }
 

@@ -5,8 +5,8 @@
 namespace ppm {
 namespace {
 
-constexpr double kLoop_s = 20, kStart_s = 0.7;  // one loop; time constant of setting off
-constexpr double kRadiusX_m = 0.70, kRadiusY_m = 0.55, kHeight_m = 1.42;
+constexpr double kLoop_s = 24, kStart_s = 0.7;  // one loop; time constant of setting off
+constexpr double kRadiusX_m = 0.95, kRadiusY_m = 0.80, kHeight_m = 1.42;
 
 /// Camera axes (x right, y down, z forward) for a direction of view; roll turns the image about it.
 Eigen::Matrix3d look(double yaw, double pitch, double roll) {
@@ -27,7 +27,7 @@ Pose room_camera_pose(double t_s) {
       kRadiusY_m * std::sin(angle) + 0.010 * std::sin(3.7 * u + 1.0),
       kHeight_m + 0.06 * std::sin(0.9 * u + 0.4) + 0.012 * std::sin(4.1 * u);
   const double yaw = angle + EIGEN_PI + 0.020 * std::sin(1.9 * u);
-  const double pitch = -0.30 + 0.09 * std::sin(0.8 * u + 0.7) + 0.012 * std::sin(2.7 * u);
+  const double pitch = -0.36 + 0.18 * std::sin(0.8 * u + 0.7) + 0.012 * std::sin(2.7 * u);
   const double roll = 0.035 * std::sin(1.1 * u) + 0.010 * std::sin(3.3 * u);
   T.linear() = look(yaw, pitch, roll);
   return T;

@@ -42,7 +42,7 @@ class SyntheticRoom final : public FrameSource {
   SyntheticRoom() {
     params_.add("frames", frames_)
         .range(1, 1e6)
-        .doc("Length of the sequence. One loop round the room takes 310 frames.");
+        .doc("Length of the sequence. One loop round the room takes 370 frames.");
     params_.add("seed", seed_).range(0, 1e15).doc("Seed of the camera's noise; it does not depend on the run's seed.");
     params_.add("noise", tof_.noise).range(0, 10).doc("Scale of the noise of ranges; 0 gives exact ones.");
     params_.add("flying_pixels", tof_.flying_pixels)
@@ -55,7 +55,7 @@ class SyntheticRoom final : public FrameSource {
     return std::make_unique<RoomSequence>(frames_, static_cast<std::uint64_t>(seed_), tof_);
   }
 
-  std::int64_t frames_ = 320, seed_ = 1;
+  std::int64_t frames_ = 380, seed_ = 1;
   TofCamera tof_;
 };
 

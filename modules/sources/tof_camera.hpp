@@ -18,9 +18,9 @@ struct TofCamera {
   bool flying_pixels = true;                      ///< false: a pixel sees what its centre sees
   bool color = false;
 
-  static constexpr double kFloor_m = 0.002, kSlope_m = 0.0004;  ///< of the noise
+  static constexpr double kFloor_m = 0.002, kSlope_m = 0.0003;  ///< of the noise
   static constexpr double kModulation_Hz = 15e6;                ///< ambiguous beyond 10 m
-  static constexpr double kLeastAmplitude = 0.008;  ///< weaker signals are dropped (with 10 % noise on the amplitude)
+  static constexpr double kLeastAmplitude = 0.006;  ///< weaker signals are dropped (with 10 % noise on the amplitude)
   static constexpr double kLeastCosine = 0.1;       ///< more grazing views are dropped
 
   /// Standard deviation of the range, m, at least 0.1 mm.

@@ -119,7 +119,7 @@ TEST_CASE("the camera's path is smooth, slow enough to follow, and clear of the 
 }
 
 TEST_CASE("the path closes a loop") {
-  const Pose start = room_camera_pose(0), later = room_camera_pose(310 / kRoomRateHz);
+  const Pose start = room_camera_pose(0), later = room_camera_pose(370 / kRoomRateHz);
   const Pose back = start.inverse() * later;
   CHECK(back.translation().norm() < 0.15);
   CHECK(rotation_angle(back) < 10 * EIGEN_PI / 180);
