@@ -8,8 +8,8 @@ namespace {
 
 enum class Start { reference, identity };
 
-/// Makes the belief: particles with equal weights at one pose, sharing one empty mesh map; the first frame is on every path.
-/// Runs in the first frame (`when: {until_frame: 0}`); it starts over wherever it runs.
+/// Makes the belief: particles with equal weights at one pose, sharing one empty mesh map; the first frame is on every
+/// path. Runs in the first frame (`when: {until_frame: 0}`); it starts over wherever it runs.
 /// throws  DataError where the start is the reference and the frame has none
 class PpmEmpty final : public Module {
  public:
@@ -19,12 +19,15 @@ class PpmEmpty final : public Module {
   PpmEmpty() {
     params_.add("particles", particles_).range(1, 1'000'000).doc("Number of particles.");
     params_.add_choice("start", start_, {{"reference", Start::reference}, {"identity", Start::identity}})
-        .doc("The camera's first pose in the map frame: the frame's reference pose, so that map and reference share one frame, "
-             "or identity.");
+        .doc(
+            "The camera's first pose in the map frame: the frame's reference pose, so that map and reference share one "
+            "frame, or identity.");
     params_.add("cell_size", settings_.cell_size_m)
         .unit("m")
         .above(0)
-        .doc("Edge of the cubic cells that the map is cut into. Particles share what they did not change cell by cell.");
+        .doc(
+            "Edge of the cubic cells that the map is cut into. Particles share what they did not change cell by "
+            "cell.");
     params_.add("texel_size", settings_.texel_size_m)
         .unit("m")
         .above(0)
@@ -45,7 +48,8 @@ class PpmEmpty final : public Module {
     }
     auto& particles = *belief;
     particles.init(static_cast<std::size_t>(particles_), T_map_camera, std::make_shared<const PpmMap>(settings_));
-    for (std::size_t i = 0; i < particles.size(); ++i) particles.extend(i, {first->index, first->stamp_s, T_map_camera});
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      particles.extend(i, {first->index, first->stamp_s, T_map_camera});
   }
 
  private:
@@ -58,6 +62,7 @@ class PpmEmpty final : public Module {
 }  // namespace ppm
 
 PPM_MODULES(r) {
-  r.add<ppm::PpmEmpty>("map.ppm_empty", "Starts the belief: particles at one pose that share one empty probabilistic mesh.",
+  r.add<ppm::PpmEmpty>("map.ppm_empty",
+                       "Starts the belief: particles at one pose that share one empty probabilistic mesh.",
                        "paper, sections 3 and 4");
 }

@@ -13,7 +13,8 @@ constexpr double kNear = 0.02;  // m; nothing nearer is drawn
 Camera finer(const Camera& camera, int samples) {
   // Sample k of n lies at (k + 0.5) / n - 0.5 from its pixel's centre.
   auto shifted = [&](double c) { return (c + 0.5) * samples - 0.5; };
-  return {camera.cols * samples, camera.rows * samples, camera.fx * samples, camera.fy * samples, shifted(camera.cx), shifted(camera.cy)};
+  return {camera.cols * samples, camera.rows * samples, camera.fx * samples,
+          camera.fy * samples,   shifted(camera.cx),    shifted(camera.cy)};
 }
 
 double edge(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double x, double y) {
@@ -30,7 +31,8 @@ std::pair<int, int> span_of(double low, double high, int n) {
 
 Canvas::Canvas(const Camera& camera, const Pose& T_map_camera, int samples)
     : samples_(samples), fine_(finer(camera, samples)), T_camera_map_(T_map_camera.inverse()) {
-  PPM_CHECK(camera.cols > 0 && camera.rows > 0 && samples > 0, "{} x {} pixels, {} samples", camera.cols, camera.rows, samples);
+  PPM_CHECK(camera.cols > 0 && camera.rows > 0 && samples > 0, "{} x {} pixels, {} samples", camera.cols, camera.rows,
+            samples);
   const auto n = static_cast<std::size_t>(fine_.pixels());
   depth_.assign(n, kNothing);
   color_.assign(3 * n, 0.0f);
@@ -38,7 +40,9 @@ Canvas::Canvas(const Camera& camera, const Pose& T_map_camera, int samples)
   stroke_.assign(n, 0);
 }
 
-float Canvas::depth(int x, int y) const { return depth_[at(x * samples_ + samples_ / 2, y * samples_ + samples_ / 2)]; }
+float Canvas::depth(int x, int y) const {
+  return depth_[at(x * samples_ + samples_ / 2, y * samples_ + samples_ / 2)];
+}
 
 void Canvas::triangle(const std::array<ColoredPoint, 3>& corners) {
   std::array<Corner, 3> in;
@@ -82,8 +86,14 @@ void Canvas::fill(const Corner& a, const Corner& b, const Corner& c) {
 
 void Canvas::shade_depth_edges(float strength) {
   const int reach = samples_;  // one pixel
-  const std::array<std::array<int, 2>, 8> around{{{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}, {2 * reach, 2 * reach},
-                                                  {-2 * reach, 2 * reach}, {2 * reach, -2 * reach}, {-2 * reach, -2 * reach}}};
+  const std::array<std::array<int, 2>, 8> around{{{reach, 0},
+                                                  {-reach, 0},
+                                                  {0, reach},
+                                                  {0, -reach},
+                                                  {2 * reach, 2 * reach},
+                                                  {-2 * reach, 2 * reach},
+                                                  {2 * reach, -2 * reach},
+                                                  {-2 * reach, -2 * reach}}};
   for (int y = 0; y < fine_.rows; ++y)
     for (int x = 0; x < fine_.cols; ++x) {
       const float z = depth_[at(x, y)];

@@ -24,17 +24,29 @@ class MapImage final : public Module {
     params_.add("file", file_).doc(kOutputNameDoc);
     params_.add("cols", cols_).range(16, 8192).doc("Width of the picture.");
     params_.add("rows", rows_).range(16, 8192).doc("Height of the picture.");
-    params_.add_choice("color", color_,
-                       {{"shaded", MeshColor::shaded}, {"uncertainty", MeshColor::uncertainty}, {"normals", MeshColor::normals}})
-        .doc("What colours say: a lit surface tinted by height; the standard deviation of the surface's offset, 1 mm (dark) to 5 cm "
-             "(yellow), logarithmic; or the direction of normals.");
+    params_
+        .add_choice(
+            "color", color_,
+            {{"shaded", MeshColor::shaded}, {"uncertainty", MeshColor::uncertainty}, {"normals", MeshColor::normals}})
+        .doc(
+            "What colours say: a lit surface tinted by height; the standard deviation of the surface's offset, 0.2 mm "
+            "(blue) to 5 cm (red), logarithmic; or the direction of normals.");
     params_.add_choice("surface", surface_, {{"base", Surface::base}, {"displaced", Surface::displaced}})
         .doc("The elements as they are, or moved by the means of their texels.");
-    params_.add("azimuth", azimuth_).unit("rad").range(-7, 7).doc(
-        "Where the view is from: angle to the direction of the walls, in the quarter that shows most surface.");
+    params_.add("azimuth", azimuth_)
+        .unit("rad")
+        .range(-7, 7)
+        .doc("Where the view is from: angle to the direction of the walls, in the quarter that shows most surface.");
     params_.add("elevation", elevation_).unit("rad").range(0, 1.57).doc("Height of the view above the horizon.");
-    params_.add_choice("up", up_, {{"auto", Up::automatic}, {"x", Up::x}, {"-x", Up::minus_x}, {"y", Up::y}, {"-y", Up::minus_y},
-                                   {"z", Up::z}, {"-z", Up::minus_z}})
+    params_
+        .add_choice("up", up_,
+                    {{"auto", Up::automatic},
+                     {"x", Up::x},
+                     {"-x", Up::minus_x},
+                     {"y", Up::y},
+                     {"-y", Up::minus_y},
+                     {"z", Up::z},
+                     {"-z", Up::minus_z}})
         .doc("The map frame's axis that points upwards; auto: found from the cameras' attitude and the floor.");
     params_.add("paths", paths_).doc("Draws the paths.");
   }
@@ -76,6 +88,7 @@ class MapImage final : public Module {
 }  // namespace ppm
 
 PPM_MODULES(r) {
-  r.add<ppm::MapImage>("sink.image", "Draws the best particle's map and the particles' paths as a picture (PNG).",
-                       "Boucheny, \"Visualisation scientifique de grands volumes de donnees\", 2009 (eye-dome lighting)");
+  r.add<ppm::MapImage>(
+      "sink.image", "Draws the best particle's map and the particles' paths as a picture (PNG).",
+      "Boucheny, \"Visualisation scientifique de grands volumes de donnees\", 2009 (eye-dome lighting)");
 }

@@ -17,9 +17,11 @@ void append(std::string& bytes, const T* values, std::size_t count) {
 }
 
 std::string ply_header(const Mesh& mesh) {
-  std::string header = "ply\nformat binary_little_endian 1.0\ncomment metres; mean and variance of the offset along the normal\n";
+  std::string header =
+      "ply\nformat binary_little_endian 1.0\ncomment metres; mean and variance of the offset along the normal\n";
   header += fmt::format("element vertex {}\n", mesh.position.size());
-  for (const char* property : {"x", "y", "z", "nx", "ny", "nz", "mean", "variance"}) header += fmt::format("property float {}\n", property);
+  for (const char* property : {"x", "y", "z", "nx", "ny", "nz", "mean", "variance"})
+    header += fmt::format("property float {}\n", property);
   header += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.face.size());
   return header;
 }
@@ -65,6 +67,7 @@ class MeshPly final : public Module {
 }  // namespace ppm
 
 PPM_MODULES(r) {
-  r.add<ppm::MeshPly>("sink.mesh_ply", "Writes the best particle's map as a PLY mesh with normals, mean and variance per vertex.",
+  r.add<ppm::MeshPly>("sink.mesh_ply",
+                      "Writes the best particle's map as a PLY mesh with normals, mean and variance per vertex.",
                       "Turk, \"The PLY polygon file format\", 1994");
 }

@@ -36,7 +36,8 @@ std::vector<Eigen::Vector3f> face_normals(const Mesh& mesh) {
 }
 
 /// Normal at a face's corner: of the faces around the vertex that continue this one smoothly.
-Eigen::Vector3f corner_normal(const Fans& fans, const std::vector<Eigen::Vector3f>& normals, std::uint32_t face, std::uint32_t vertex) {
+Eigen::Vector3f corner_normal(const Fans& fans, const std::vector<Eigen::Vector3f>& normals, std::uint32_t face,
+                              std::uint32_t vertex) {
   const Eigen::Vector3f own = normals[face].normalized();
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (auto i = fans.first[vertex]; i < fans.first[vertex + 1]; ++i) {
@@ -56,8 +57,11 @@ Color ramp(const std::array<std::array<float, 3>, N>& stops, float t) {
 }
 
 Color height_color(float t) {
-  static constexpr std::array<std::array<float, 3>, 5> kStops{
-      {{0.62f, 0.50f, 0.40f}, {0.80f, 0.69f, 0.54f}, {0.86f, 0.83f, 0.74f}, {0.74f, 0.82f, 0.85f}, {0.60f, 0.72f, 0.84f}}};
+  static constexpr std::array<std::array<float, 3>, 5> kStops{{{0.62f, 0.50f, 0.40f},
+                                                               {0.80f, 0.69f, 0.54f},
+                                                               {0.86f, 0.83f, 0.74f},
+                                                               {0.74f, 0.82f, 0.85f},
+                                                               {0.60f, 0.72f, 0.84f}}};
   return ramp(kStops, t);
 }
 
@@ -89,9 +93,12 @@ std::pair<float, float> height_range(const Mesh& mesh, const Eigen::Vector3f& up
 }  // namespace
 
 Color uncertainty_color(float sigma_m) {
-  static constexpr std::array<std::array<float, 3>, 5> kStops{  // after the map "viridis" of matplotlib
-      {{0.267f, 0.005f, 0.329f}, {0.229f, 0.322f, 0.546f}, {0.128f, 0.567f, 0.551f}, {0.369f, 0.789f, 0.383f}, {0.993f, 0.906f, 0.144f}}};
-  constexpr float kLow = 0.001f, kHigh = 0.05f;
+  static constexpr std::array<std::array<float, 3>, 5> kStops{{{0.22f, 0.34f, 0.68f},
+                                                               {0.24f, 0.64f, 0.72f},
+                                                               {0.60f, 0.80f, 0.48f},
+                                                               {0.97f, 0.84f, 0.33f},
+                                                               {0.85f, 0.25f, 0.15f}}};
+  constexpr float kLow = 0.0002f, kHigh = 0.05f;
   return ramp(kStops, std::log(std::max(sigma_m, kLow) / kLow) / std::log(kHigh / kLow));
 }
 
@@ -103,9 +110,12 @@ void draw_mesh(Canvas& canvas, const Mesh& mesh, MeshColor color, const Eigen::V
   const auto [low, high] = height_range(mesh, up);
   auto color_at = [&, low = low, high = high](std::uint32_t v, const Eigen::Vector3f& n) -> Color {
     switch (color) {
-      case MeshColor::uncertainty: return (0.35f + 0.65f * lights.at(n)) * uncertainty_color(std::sqrt(mesh.variance[v]));
-      case MeshColor::normals: return 0.5f * (n + Color::Ones());
-      case MeshColor::shaded: break;
+      case MeshColor::uncertainty:
+        return (0.35f + 0.65f * lights.at(n)) * uncertainty_color(std::sqrt(mesh.variance[v]));
+      case MeshColor::normals:
+        return 0.5f * (n + Color::Ones());
+      case MeshColor::shaded:
+        break;
     }
     return lights.at(n) * height_color((mesh.position[v].dot(up) - low) / (high - low));
   };

@@ -7,7 +7,7 @@ namespace ppm {
 /// What a mesh's colours say.
 enum class MeshColor {
   shaded,       ///< lit surface, tinted by height
-  uncertainty,  ///< standard deviation of the offset: from 1 mm (dark) to 5 cm (yellow), logarithmic
+  uncertainty,  ///< standard deviation of the offset: from 0.2 mm (blue) to 5 cm (red), logarithmic
   normals       ///< direction of the normal
 };
 

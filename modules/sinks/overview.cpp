@@ -66,7 +66,8 @@ void centre(const std::vector<Eigen::Vector3d>& points, Eigen::Vector3d& eye) {
 
 /// Places the camera, whose axes are given, so that nearly all points fill the picture. Points: axes' coordinates.
 Eigen::Vector3d fit(const std::vector<Eigen::Vector3d>& points, const Camera& camera) {
-  // A point is inside the left border if x + s z >= x0 + s z0, with s the border's slope: each border is an extreme value.
+  // A point is inside the left border if x + s z >= x0 + s z0, with s the border's slope: each border is an extreme
+  // value.
   auto place = [&](int axis, double slope) {
     std::vector<double> low, high;
     for (const auto& p : points) {
@@ -103,8 +104,8 @@ Eigen::Vector3d estimate_up(const Mesh& mesh, const std::vector<Pose>& path) {
   return up;
 }
 
-View overview(const Mesh& mesh, const std::vector<Pose>& path, const Eigen::Vector3d& up, double azimuth_rad, double elevation_rad,
-              int cols, int rows) {
+View overview(const Mesh& mesh, const std::vector<Pose>& path, const Eigen::Vector3d& up, double azimuth_rad,
+              double elevation_rad, int cols, int rows) {
   const auto [e1, e2] = wall_axes(mesh, up);
   Eigen::Vector3d towards = up;  // from the map to the eye
   double best = -1;

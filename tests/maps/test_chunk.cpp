@@ -54,7 +54,9 @@ TEST_CASE("no two geometries get the same id") {
 TEST_CASE("inserting vertices keeps ids ascending and faces on their vertices") {
   Geometry geometry;
   Texels texels;
-  auto position = [](std::uint32_t id) { return Eigen::Vector3f(static_cast<float>(id), static_cast<float>(id * id), 1); };
+  auto position = [](std::uint32_t id) {
+    return Eigen::Vector3f(static_cast<float>(id), static_cast<float>(id * id), 1);
+  };
   auto insert = [&](std::vector<std::uint32_t> ids) {
     std::vector<NewVertex> vertices;
     for (auto id : ids) vertices.push_back({id, position(id)});
@@ -66,7 +68,8 @@ TEST_CASE("inserting vertices keeps ids ascending and faces on their vertices") 
   append_faces(geometry, texels, face);
   insert({5, 15, 25, 40});
   CHECK(geometry.vertex_id == std::vector<std::uint32_t>{5, 10, 15, 20, 25, 30, 40});
-  for (std::size_t v = 0; v < geometry.vertex_id.size(); ++v) CHECK(geometry.position[v] == position(geometry.vertex_id[v]));
+  for (std::size_t v = 0; v < geometry.vertex_id.size(); ++v)
+    CHECK(geometry.position[v] == position(geometry.vertex_id[v]));
   CHECK(geometry.face[0] == std::array<std::uint32_t, 3>{1, 3, 5});
   drop_unused_vertices(geometry);
   CHECK(geometry.vertex_id == std::vector<std::uint32_t>{10, 20, 30});

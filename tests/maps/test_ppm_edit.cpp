@@ -19,7 +19,8 @@ PpmSettings small_cells() {
 }  // namespace
 
 TEST_CASE("a height field over several cells keeps every invariant") {
-  const auto map = height_field(16, 12, 0.1f, small_cells(), [](float x, float y) { return 0.1f * std::sin(5 * x) * std::cos(4 * y); });
+  const auto map = height_field(16, 12, 0.1f, small_cells(),
+                                [](float x, float y) { return 0.1f * std::sin(5 * x) * std::cos(4 * y); });
   map->check();
   const auto stats = map->stats();
   CHECK(stats.vertices == 17 * 13);

@@ -30,7 +30,8 @@ std::shared_ptr<const PpmMap> bumpy_map() {
     auto& texels = edit.texels(c);
     for (auto& m : texels.mean) m = static_cast<float>(rng.normal() * 0.01);
     for (auto& v : texels.variance) v = static_cast<float>(1e-4 + 1e-3 * rng.uniform());
-    for (auto& e : texels.evidence) e = {static_cast<std::uint16_t>(rng.below(1000)), static_cast<std::uint16_t>(rng.below(9))};
+    for (auto& e : texels.evidence)
+      e = {static_cast<std::uint16_t>(rng.below(1000)), static_cast<std::uint16_t>(rng.below(9))};
   }
   edit.remove_face(0, 1);
   return edit.commit();

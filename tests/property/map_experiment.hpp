@@ -33,7 +33,9 @@ class MapExperiment {
 
  private:
   float random(double least, double most) { return static_cast<float>(least + (most - least) * rng_.uniform()); }
-  Eigen::Vector3f place(const NaiveMesh& mesh, std::uint32_t id) const { return Eigen::Vector3f(mesh.at.at(id).data()); }
+  Eigen::Vector3f place(const NaiveMesh& mesh, std::uint32_t id) const {
+    return Eigen::Vector3f(mesh.at.at(id).data());
+  }
 
   void gather() {
     std::vector<std::uint32_t> ancestors;
@@ -81,7 +83,8 @@ class MapExperiment {
       const Geometry& g = *session.map().table()[chunk].geometry;
       if (g.position.empty()) continue;
       const auto v = rng_.below(static_cast<std::uint32_t>(g.position.size()));
-      const Eigen::Vector3f to = g.position[v] + Eigen::Vector3f(random(-0.02, 0.02), random(-0.02, 0.02), random(-0.02, 0.02));
+      const Eigen::Vector3f to =
+          g.position[v] + Eigen::Vector3f(random(-0.02, 0.02), random(-0.02, 0.02), random(-0.02, 0.02));
       session.move_vertex(chunk, v, to);
       mesh.at[g.vertex_id[v]] = {to.x(), to.y(), to.z()};
     }
@@ -106,13 +109,15 @@ class MapExperiment {
       NaiveMesh::Ids corner;
       if (open.empty() || rng_.below(6) == 0) {
         const Eigen::Vector3f p(random(-1, 1), random(-1, 1), random(-1, 1));
-        for (std::size_t k = 0; k < 3; ++k) corner[k] = new_vertex(session, mesh, p + 0.15f * Eigen::Vector3f::Unit(static_cast<int>(k)));
+        for (std::size_t k = 0; k < 3; ++k)
+          corner[k] = new_vertex(session, mesh, p + 0.15f * Eigen::Vector3f::Unit(static_cast<int>(k)));
       } else {
         const auto choice = rng_.below(static_cast<std::uint32_t>(open.size()));
         const auto [b, a] = open[choice];
         open.erase(open.begin() + choice);
         const Eigen::Vector3f pa = old_place(session, mesh, a), pb = old_place(session, mesh, b);
-        const Eigen::Vector3f apex = 0.5f * (pa + pb) + Eigen::Vector3f(random(-0.2, 0.2), random(-0.2, 0.2), random(-0.2, 0.2));
+        const Eigen::Vector3f apex =
+            0.5f * (pa + pb) + Eigen::Vector3f(random(-0.2, 0.2), random(-0.2, 0.2), random(-0.2, 0.2));
         corner = {a, b, new_vertex(session, mesh, apex)};
       }
       NaiveMesh::Face face;

@@ -1,7 +1,6 @@
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <catch2/catch.hpp>
 #include <set>
-
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "tests/property/map_experiment.hpp"
 
@@ -24,7 +23,8 @@ OracleMesh oracle_mesh(const Mesh& mesh) {
 /// Open edges of the whole map: those that are open in their chunk and have no partner in another.
 std::size_t open_edges_over_chunks(const PpmMap& map) {
   std::set<std::array<std::uint32_t, 2>> open;
-  for (const auto& chunk : map.table().chunks()) open.insert(chunk.geometry->open_edge.begin(), chunk.geometry->open_edge.end());
+  for (const auto& chunk : map.table().chunks())
+    open.insert(chunk.geometry->open_edge.begin(), chunk.geometry->open_edge.end());
   std::size_t count = 0;
   for (const auto& [a, b] : open) count += open.count({b, a}) == 0;
   return count;

@@ -25,7 +25,8 @@ TEST_CASE("after any sequence of edits and resamplings every particle's map is i
     for (int step = 0; step < 150; ++step) {
       experiment.step();
       INFO("seed " << seed << " step " << step);
-      for (std::size_t i = 0; i < experiment.belief().size(); ++i) REQUIRE(test::naive(experiment.map(i)) == experiment.expected(i));
+      for (std::size_t i = 0; i < experiment.belief().size(); ++i)
+        REQUIRE(test::naive(experiment.map(i)) == experiment.expected(i));
     }
   }
 }
@@ -60,7 +61,8 @@ TEST_CASE("memory that particles share is counted once, and all of it is counted
     }
     CHECK(owned <= alone);
     CHECK(owned >= chunks);
-    CHECK(owned - chunks < static_cast<std::int64_t>(maps.size() * (sizeof(PpmMap) + experiment.map(0).table().size() * 256 + 8192)));
+    CHECK(owned - chunks <
+          static_cast<std::int64_t>(maps.size() * (sizeof(PpmMap) + experiment.map(0).table().size() * 256 + 8192)));
     for (const auto& map : belief.map) CHECK(map->account(seen) == 0);
   }
 }

@@ -128,7 +128,7 @@ TEST_CASE("depth edges darken what is behind, nothing else") {
   square(canvas, -0.2f, 0.2f, -0.2f, 0.2f, 2, kWhite);
   canvas.shade_depth_edges(10);
   const auto image = canvas.resolve(kBlack, kBlack);
-  CHECK(pixel(image, 12, 5).x() == 1);      // far from the edge
+  CHECK(pixel(image, 12, 5).x() == 1);     // far from the edge
   CHECK(pixel(image, 32, 24).x() == 1);    // in front
   CHECK(pixel(image, 37, 24).x() < 0.8f);  // beside the near square's border at 31.5 + 5
 }

@@ -39,15 +39,18 @@ TEST_CASE("sink.image draws map and paths, in each of its colours, the same each
   test::TempFolder dir;
   Registry registry;
   register_builtin(registry);
-  const auto map = test::height_field(20, 15, 0.1f, {}, [](float x, float y) { return 0.3f * std::sin(3 * x) * std::sin(3 * y); });
+  const auto map =
+      test::height_field(20, 15, 0.1f, {}, [](float x, float y) { return 0.3f * std::sin(3 * x) * std::sin(3 * y); });
   std::set<std::string> different;
   for (const std::string color : {"shaded", "uncertainty", "normals"}) {
     for (const std::string name : {"a.png", "b.png"}) {
-      Harness h(registry, "sink.image", "{cols: 160, rows: 120, up: z, color: " + color + ", file: " + name + "}", 1, 1, dir.path());
+      Harness h(registry, "sink.image", "{cols: 160, rows: 120, up: z, color: " + color + ", file: " + name + "}", 1, 1,
+                dir.path());
       h.belief().init(3, Pose::Identity(), map);
       for (std::size_t i = 0; i < 3; ++i)
         for (int t = 0; t < 10; ++t)
-          h.belief().extend(i, {t, 0.1 * t, Pose(Eigen::Translation3d(0.2 * t, 1 + 0.01 * static_cast<double>(i), 1.5))});
+          h.belief().extend(i,
+                            {t, 0.1 * t, Pose(Eigen::Translation3d(0.2 * t, 1 + 0.01 * static_cast<double>(i), 1.5))});
       h.tick();
     }
     const auto picture = read_png(dir / "a.png");

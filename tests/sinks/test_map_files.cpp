@@ -48,7 +48,8 @@ PlyFile read_ply(const std::filesystem::path& file) {
   }
   for (std::size_t f = 0; f < faces; ++f) {
     std::vector<std::int32_t> corners(static_cast<std::size_t>(in.get()));
-    in.read(reinterpret_cast<char*>(corners.data()), static_cast<std::streamsize>(corners.size() * sizeof(std::int32_t)));
+    in.read(reinterpret_cast<char*>(corners.data()),
+            static_cast<std::streamsize>(corners.size() * sizeof(std::int32_t)));
     ply.face.push_back(corners);
   }
   ply.all_read = in.good() && in.get() == std::char_traits<char>::eof();
@@ -88,7 +89,9 @@ TEST_CASE("sink.mesh_ply writes a file that a plain PLY reader understands") {
     }
     for (const auto& f : ply.face) {
       REQUIRE(f.size() == 3);
-      auto p = [&](std::size_t k) { return Eigen::Map<const Eigen::Vector3f>(ply.vertex.at(static_cast<std::size_t>(f[k])).data()); };
+      auto p = [&](std::size_t k) {
+        return Eigen::Map<const Eigen::Vector3f>(ply.vertex.at(static_cast<std::size_t>(f[k])).data());
+      };
       CHECK((p(1) - p(0)).cross(p(2) - p(0)).z() > 0);  // counter-clockwise from the side of the normals
     }
   }

@@ -79,13 +79,15 @@ TEST_CASE("of four quarters the one that shows most surface is taken") {
 TEST_CASE("an overview of nothing, of a point, and from straight above is still a view") {
   CHECK(is_finite(overview({}, {}, Eigen::Vector3d::UnitZ(), 0.6, 0.75, 64, 48).T_map_camera));
   CHECK(is_finite(overview({}, {Pose::Identity()}, Eigen::Vector3d::UnitZ(), 0.6, 0.75, 64, 48).T_map_camera));
-  CHECK(is_finite(overview(test::box_room(2, 2, 2), {}, Eigen::Vector3d::UnitZ(), 0.6, 1.57079632679489662, 64, 48).T_map_camera));
+  CHECK(is_finite(
+      overview(test::box_room(2, 2, 2), {}, Eigen::Vector3d::UnitZ(), 0.6, 1.57079632679489662, 64, 48).T_map_camera));
 }
 
 TEST_CASE("uncertainty has a scale of its own") {
-  CHECK(uncertainty_color(0.0001f) == uncertainty_color(0.001f));
+  CHECK(uncertainty_color(0.0001f) == uncertainty_color(0.0002f));
   CHECK(uncertainty_color(0.05f) == uncertainty_color(1.0f));
-  CHECK(uncertainty_color(0.001f).sum() < uncertainty_color(0.05f).sum());
+  CHECK(uncertainty_color(0.0002f).z() > uncertainty_color(0.0002f).x());  // certain is blue
+  CHECK(uncertainty_color(0.05f).x() > uncertainty_color(0.05f).z());      // uncertain is red
 }
 
 TEST_CASE("a frustum stands at its camera and opens forwards") {

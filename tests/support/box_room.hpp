@@ -14,7 +14,8 @@ inline Mesh box_room(float x, float y, float z) {
   mesh.mean.assign(8, 0.0f);
   mesh.variance.assign(8, 1e-4f);
   // Each square counter-clockwise seen from inside.
-  const std::uint32_t squares[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+  const std::uint32_t squares[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                                       {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
   for (const auto& s : squares) {
     mesh.face.push_back({s[0], s[1], s[2]});
     mesh.face.push_back({s[0], s[2], s[3]});

@@ -17,15 +17,17 @@ inline std::string digest_of(const Map& map) {
 }
 
 /// Adds a face with constant texels over vertices of the session.
-inline void add_flat_face(PpmEdit& edit, const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, float mean, float variance,
-                          FaceEvidence evidence = {}) {
+inline void add_flat_face(PpmEdit& edit, const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, float mean,
+                          float variance, FaceEvidence evidence = {}) {
   const std::vector<float> m(texel_count(divisions), mean), v(texel_count(divisions), variance);
   edit.add_face(ids, divisions, m, v, evidence);
 }
 
-/// A height field over [0, nx*step] x [0, ny*step], two triangles a square, normals upwards; texels 0 with the prior's variance.
-inline std::shared_ptr<const PpmMap> height_field(int nx, int ny, float step, const PpmSettings& settings = {},
-                                                  const std::function<float(float, float)>& z = [](float, float) { return 0.0f; }) {
+/// A height field over [0, nx*step] x [0, ny*step], two triangles a square, normals upwards; texels 0 with the prior's
+/// variance.
+inline std::shared_ptr<const PpmMap> height_field(
+    int nx, int ny, float step, const PpmSettings& settings = {},
+    const std::function<float(float, float)>& z = [](float, float) { return 0.0f; }) {
   PpmEdit edit(std::make_shared<PpmMap>(settings));
   std::vector<std::uint32_t> id;
   std::vector<Eigen::Vector3f> p;

@@ -30,8 +30,8 @@ std::uint32_t Geometry::find_vertex(std::uint32_t vertex) const {
 }
 
 std::int64_t Geometry::bytes() const {
-  return static_cast<std::int64_t>(sizeof *this) + bytes_of(position) + bytes_of(normal) + bytes_of(vertex_id) + bytes_of(face) +
-         bytes_of(divisions) + bytes_of(first_texel) + bytes_of(open_edge);
+  return static_cast<std::int64_t>(sizeof *this) + bytes_of(position) + bytes_of(normal) + bytes_of(vertex_id) +
+         bytes_of(face) + bytes_of(divisions) + bytes_of(first_texel) + bytes_of(open_edge);
 }
 
 std::int64_t Texels::bytes() const {

@@ -14,17 +14,21 @@ namespace ppm {
 /// (p1-p0) x (p2-p0) points into free space. A texel mean is measured along it, positive into free space.
 /// Source: paper, section 3, M = (V, F, T), cut into spatial cells.
 struct Geometry {
-  std::uint64_t id = 0;  ///< unique for each content that ever existed in this process: key of caches; neither saved nor hashed
-  std::vector<Eigen::Vector3f> position;            ///< [V] m, map frame
-  std::vector<Eigen::Vector3f> normal;              ///< [V] unit, area-weighted over all incident faces of all chunks
-  std::vector<std::uint32_t> vertex_id;             ///< [V] ascending; the map's number of the vertex, the same in every chunk that uses it
-  std::vector<std::array<std::uint32_t, 3>> face;   ///< [F] indices into position
-  std::vector<std::uint8_t> divisions;              ///< [F] n >= 1: each edge is divided into n; texel_count(n) texels
-  std::vector<std::uint32_t> first_texel;           ///< [F] index of the face's first texel in Texels; faces follow each other without gaps
-  std::vector<std::array<std::uint32_t, 2>> open_edge;  ///< ascending; directed edges (vertex ids, in winding order) without a partner in this chunk
-  Eigen::AlignedBox3f box;                          ///< of position
+  /// Unique for each content that ever existed in this process: key of caches; neither saved nor hashed.
+  std::uint64_t id = 0;
+  std::vector<Eigen::Vector3f> position;  ///< [V] m, map frame
+  std::vector<Eigen::Vector3f> normal;    ///< [V] unit, area-weighted over all incident faces of all chunks
+  /// [V] ascending; the map's number of the vertex, the same in every chunk that uses it.
+  std::vector<std::uint32_t> vertex_id;
+  std::vector<std::array<std::uint32_t, 3>> face;  ///< [F] indices into position
+  std::vector<std::uint8_t> divisions;             ///< [F] n >= 1: each edge is divided into n; texel_count(n) texels
+  /// [F] index of the face's first texel in Texels; faces follow each other without gaps.
+  std::vector<std::uint32_t> first_texel;
+  /// Ascending; directed edges (vertex ids, in winding order) without a partner in this chunk.
+  std::vector<std::array<std::uint32_t, 2>> open_edge;
+  Eigen::AlignedBox3f box;  ///< of position
 
-  Eigen::Vector3f face_normal(std::size_t f) const;  ///< unit
+  Eigen::Vector3f face_normal(std::size_t f) const;              ///< unit
   Eigen::Vector3f point(std::size_t f, float u, float v) const;  ///< (1-u-v) p0 + u p1 + v p2
   /// Index of the vertex with that vertex_id, or kNoVertex. Binary search.
   std::uint32_t find_vertex(std::uint32_t vertex) const;
@@ -42,8 +46,8 @@ struct FaceEvidence {
 
 /// The texture of a chunk: texels lie on a triangular grid over each face, corners and edges included.
 struct Texels {
-  std::vector<float> mean;      ///< [T] m along the face normal
-  std::vector<float> variance;  ///< [T] m^2; the prior's where never observed
+  std::vector<float> mean;             ///< [T] m along the face normal
+  std::vector<float> variance;         ///< [T] m^2; the prior's where never observed
   std::vector<FaceEvidence> evidence;  ///< [F]
   std::int64_t bytes() const;
 };

@@ -8,8 +8,12 @@
 namespace ppm {
 namespace {
 
-Edge reversed(const Edge& e) { return {e[1], e[0]}; }
-bool contains(const std::vector<Edge>& sorted, const Edge& e) { return std::binary_search(sorted.begin(), sorted.end(), e); }
+Edge reversed(const Edge& e) {
+  return {e[1], e[0]};
+}
+bool contains(const std::vector<Edge>& sorted, const Edge& e) {
+  return std::binary_search(sorted.begin(), sorted.end(), e);
+}
 
 /// Removes the `dropped` edges from a sorted list and merges the `added` ones into it.
 void replace_edges(std::vector<Edge>& open, std::vector<Edge> dropped, std::vector<Edge> added) {
@@ -55,7 +59,8 @@ std::vector<Edge> sorted_edges(const Geometry& geometry, std::span<const std::ui
   edges.reserve(3 * faces.size());
   for (auto f : faces) {
     const auto& face = geometry.face[f];
-    for (std::size_t k = 0; k < 3; ++k) edges.push_back({geometry.vertex_id[face[k]], geometry.vertex_id[face[(k + 1) % 3]]});
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.push_back({geometry.vertex_id[face[k]], geometry.vertex_id[face[(k + 1) % 3]]});
   }
   std::sort(edges.begin(), edges.end());
   return edges;

@@ -8,8 +8,9 @@
 
 namespace ppm {
 
-// Changes within one chunk, in place: the steps that PpmEdit::commit() is made of. Between them the chunk may break invariants
-// (vertices without faces, an old box); open edges are kept right by every step. All keep the order of what stays.
+// Changes within one chunk, in place: the steps that PpmEdit::commit() is made of. Between them the chunk may break
+// invariants (vertices without faces, an old box); open edges are kept right by every step. All keep the order of what
+// stays.
 
 using Edge = std::array<std::uint32_t, 2>;
 

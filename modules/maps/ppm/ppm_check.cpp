@@ -11,18 +11,20 @@ namespace {
 
 void check_faces(std::size_t chunk, const Geometry& geometry, const PpmSettings& settings) {
   const std::size_t vertices = geometry.position.size(), faces = geometry.face.size();
-  PPM_CHECK(geometry.divisions.size() == faces && geometry.first_texel.size() == faces, "chunk {}: counts of faces differ", chunk);
+  PPM_CHECK(geometry.divisions.size() == faces && geometry.first_texel.size() == faces,
+            "chunk {}: counts of faces differ", chunk);
   std::vector<bool> used(vertices, false);
   std::uint32_t texels = 0;
   for (std::size_t f = 0; f < faces; ++f) {
     const auto& [a, b, c] = geometry.face[f];
     PPM_CHECK(std::max({a, b, c}) < vertices, "chunk {} face {}: no such vertex", chunk, f);
-    const Eigen::Vector3f u = geometry.position[b] - geometry.position[a], v = geometry.position[c] - geometry.position[a];
+    const Eigen::Vector3f u = geometry.position[b] - geometry.position[a],
+                          v = geometry.position[c] - geometry.position[a];
     const double area = u.cast<double>().cross(v.cast<double>()).norm();
     PPM_CHECK(std::isfinite(area) && area > 0, "chunk {} face {}: degenerate", chunk, f);
     used[a] = used[b] = used[c] = true;
-    PPM_CHECK(geometry.divisions[f] >= 1 && geometry.divisions[f] <= settings.max_divisions, "chunk {} face {}: {} divisions",
-              chunk, f, geometry.divisions[f]);
+    PPM_CHECK(geometry.divisions[f] >= 1 && geometry.divisions[f] <= settings.max_divisions,
+              "chunk {} face {}: {} divisions", chunk, f, geometry.divisions[f]);
     PPM_CHECK(geometry.first_texel[f] == texels, "chunk {} face {}: texels are not in the order of faces", chunk, f);
     texels += texel_count(geometry.divisions[f]);
   }
@@ -31,8 +33,8 @@ void check_faces(std::size_t chunk, const Geometry& geometry, const PpmSettings&
 
 void check_vertices(std::size_t chunk, const Geometry& geometry, std::uint32_t vertex_ids) {
   const std::size_t vertices = geometry.position.size();
-  PPM_CHECK(geometry.normal.size() == vertices && geometry.vertex_id.size() == vertices, "chunk {}: counts of vertices differ",
-            chunk);
+  PPM_CHECK(geometry.normal.size() == vertices && geometry.vertex_id.size() == vertices,
+            "chunk {}: counts of vertices differ", chunk);
   for (std::size_t v = 0; v < vertices; ++v) {
     PPM_CHECK(geometry.position[v].allFinite(), "chunk {} vertex {}: not finite", chunk, v);
     PPM_CHECK(geometry.vertex_id[v] < vertex_ids, "chunk {} vertex {}: id never handed out", chunk, v);
@@ -43,8 +45,9 @@ void check_vertices(std::size_t chunk, const Geometry& geometry, std::uint32_t v
 void check_texels(std::size_t chunk, const Geometry& geometry, const Texels& texels) {
   std::size_t count = 0;
   for (auto n : geometry.divisions) count += texel_count(n);
-  PPM_CHECK(texels.mean.size() == count && texels.variance.size() == count && texels.evidence.size() == geometry.face.size(),
-            "chunk {}: texels do not fit its faces", chunk);
+  PPM_CHECK(
+      texels.mean.size() == count && texels.variance.size() == count && texels.evidence.size() == geometry.face.size(),
+      "chunk {}: texels do not fit its faces", chunk);
   for (std::size_t t = 0; t < count; ++t)
     PPM_CHECK(std::isfinite(texels.mean[t]) && std::isfinite(texels.variance[t]) && texels.variance[t] > 0,
               "chunk {} texel {}: mean {} variance {}", chunk, t, texels.mean[t], texels.variance[t]);
@@ -68,7 +71,8 @@ void check_edges(const PpmMap& map) {
         edges.push_back({chunk.geometry->vertex_id[face[k]], chunk.geometry->vertex_id[face[(k + 1) % 3]]});
   std::sort(edges.begin(), edges.end());
   const auto twice = std::adjacent_find(edges.begin(), edges.end());
-  if (twice != edges.end()) PPM_CHECK(false, "the edge {} -> {} has two faces on the same side", (*twice)[0], (*twice)[1]);
+  if (twice != edges.end())
+    PPM_CHECK(false, "the edge {} -> {} has two faces on the same side", (*twice)[0], (*twice)[1]);
 }
 
 void check_copies(const PpmMap& map) {
@@ -82,7 +86,8 @@ void check_copies(const PpmMap& map) {
     for (std::uint32_t v = 0; v < geometry.position.size(); ++v)
       copies.push_back({{geometry.vertex_id[v], geometry.position[v]}, {c, v}});
   }
-  std::stable_sort(copies.begin(), copies.end(), [](const auto& a, const auto& b) { return a.vertex.id < b.vertex.id; });
+  std::stable_sort(copies.begin(), copies.end(),
+                   [](const auto& a, const auto& b) { return a.vertex.id < b.vertex.id; });
   std::vector<NewVertex> vertices;
   for (const auto& [vertex, copy] : copies) {
     if (vertices.empty() || vertices.back().id != vertex.id) vertices.push_back(vertex);
@@ -91,8 +96,8 @@ void check_copies(const PpmMap& map) {
   const auto normals = vertex_normals(map, vertices);
   PPM_CHECK(normals.size() == copies.size(), "{} of {} vertex copies can be found", normals.size(), copies.size());
   for (const auto& [copy, normal] : normals)
-    PPM_CHECK(map.table()[copy.chunk].geometry->normal[copy.vertex] == normal, "chunk {} vertex {}: normal is stale", copy.chunk,
-              copy.vertex);
+    PPM_CHECK(map.table()[copy.chunk].geometry->normal[copy.vertex] == normal, "chunk {} vertex {}: normal is stale",
+              copy.chunk, copy.vertex);
 }
 
 }  // namespace

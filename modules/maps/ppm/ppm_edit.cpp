@@ -34,7 +34,9 @@ void sort_by_id(std::vector<NewVertex>& vertices) {
 }
 
 /// By how many cells b is away from a.
-int cell_distance(const Cell& a, const Cell& b) { return (a - b).cwiseAbs().maxCoeff(); }
+int cell_distance(const Cell& a, const Cell& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
 
 }  // namespace
 
@@ -74,7 +76,8 @@ class PpmEdit::Commit {
       const Cell cell = map_.cell_of((a + b + c) / 3.0f);
       for (const auto* p : {&a, &b, &c}) extend_reach(cell, *p);
       auto chunk = map_.table_.find(cell);
-      if (chunk == ChunkTable<PpmChunk>::kNone) chunk = map_.table_.add(cell, {Cow<Geometry>::make(), Cow<Texels>::make()});
+      if (chunk == ChunkTable<PpmChunk>::kNone)
+        chunk = map_.table_.add(cell, {Cow<Geometry>::make(), Cow<Texels>::make()});
       const std::size_t count = texel_count(f.divisions);
       staged_.chunks[chunk].added.push_back({f.id, f.divisions, f.evidence,
                                              std::span<const float>(staged_.mean).subspan(f.first_texel, count),
@@ -113,7 +116,8 @@ class PpmEdit::Commit {
     VertexFinder finder(map_);
     for (const auto& [id, move] : staged_.moves)
       for (const auto& copy : finder.copies(id, move.from)) placed.push_back({copy, move.to});
-    std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first.chunk < b.first.chunk; });
+    std::stable_sort(placed.begin(), placed.end(),
+                     [](const auto& a, const auto& b) { return a.first.chunk < b.first.chunk; });
 
     for (auto& touched : touched_)
       if (auto it = staged_.moves.find(touched.id); it != staged_.moves.end()) touched.position = it->second.to;
@@ -142,7 +146,8 @@ class PpmEdit::Commit {
   void update_normals() {
     sort_by_id(touched_);
     for (const auto& [copy, normal] : vertex_normals(map_, touched_))
-      if (map_.table_[copy.chunk].geometry->normal[copy.vertex] != normal) change(copy.chunk).normal[copy.vertex] = normal;
+      if (map_.table_[copy.chunk].geometry->normal[copy.vertex] != normal)
+        change(copy.chunk).normal[copy.vertex] = normal;
   }
 
   PpmMap& map_;
@@ -154,7 +159,8 @@ class PpmEdit::Commit {
 PpmEdit::PpmEdit(std::shared_ptr<const PpmMap> map) : staged_(std::make_unique<Staged>()) {
   PPM_CHECK(map != nullptr, "an edit needs a map");
   if (map.use_count() == 1) {
-    // Nobody else can get at the object any more; what other threads read of it happened before they dropped their handles.
+    // Nobody else can get at the object any more; what other threads read of it happened before they dropped their
+    // handles.
     std::atomic_thread_fence(std::memory_order_acquire);
     map_ = std::const_pointer_cast<PpmMap>(std::move(map));
   } else {
@@ -183,8 +189,8 @@ void PpmEdit::use_vertex(std::uint32_t id, const Eigen::Vector3f& position) {
 void PpmEdit::add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, std::span<const float> mean,
                        std::span<const float> variance, FaceEvidence evidence) {
   PPM_CHECK(divisions >= 1 && divisions <= map_->settings_.max_divisions, "{} divisions", divisions);
-  PPM_CHECK(mean.size() == texel_count(divisions) && variance.size() == mean.size(), "{} and {} texels for {} divisions",
-            mean.size(), variance.size(), divisions);
+  PPM_CHECK(mean.size() == texel_count(divisions) && variance.size() == mean.size(),
+            "{} and {} texels for {} divisions", mean.size(), variance.size(), divisions);
   for (auto id : ids) PPM_CHECK(staged_->vertex.contains(id), "vertex {} is not of this session", id);
   staged_->faces.push_back({ids, divisions, evidence, staged_->mean.size()});
   staged_->mean.insert(staged_->mean.end(), mean.begin(), mean.end());
@@ -192,13 +198,14 @@ void PpmEdit::add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t div
 }
 
 void PpmEdit::remove_face(std::uint32_t chunk, std::uint32_t face) {
-  PPM_CHECK(chunk < map_->table_.size() && face < map_->table_[chunk].geometry->face.size(), "chunk {} face {}", chunk, face);
+  PPM_CHECK(chunk < map_->table_.size() && face < map_->table_[chunk].geometry->face.size(), "chunk {} face {}", chunk,
+            face);
   staged_->chunks[chunk].removed.push_back(face);
 }
 
 void PpmEdit::move_vertex(std::uint32_t chunk, std::uint32_t vertex, const Eigen::Vector3f& position) {
-  PPM_CHECK(chunk < map_->table_.size() && vertex < map_->table_[chunk].geometry->position.size(), "chunk {} vertex {}", chunk,
-            vertex);
+  PPM_CHECK(chunk < map_->table_.size() && vertex < map_->table_[chunk].geometry->position.size(), "chunk {} vertex {}",
+            chunk, vertex);
   const Geometry& geometry = *map_->table_[chunk].geometry;
   staged_->moves[geometry.vertex_id[vertex]] = {geometry.position[vertex], position};
 }

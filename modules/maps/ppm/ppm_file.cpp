@@ -11,11 +11,12 @@
 #include "framework/core/error.hpp"
 #include "modules/maps/ppm/chunk_edit.hpp"
 
-static_assert(std::endian::native == std::endian::little, "map.ppm is little endian, and is written from memory as it is");
+static_assert(std::endian::native == std::endian::little,
+              "map.ppm is little endian, and is written from memory as it is");
 
 // Layout: magic, then records. A record is: u64 length of the payload, payload, 32 characters of its hash.
-// First record: version, settings, vertex ids, number of chunks. Then one record a chunk. Derived parts of a chunk (open edges, box)
-// are computed again.
+// First record: version, settings, vertex ids, number of chunks. Then one record a chunk. Derived parts of a chunk
+// (open edges, box) are computed again.
 
 namespace ppm {
 namespace {
@@ -57,7 +58,8 @@ class Payload {
 /// Takes values off the front of a record.
 class RecordView {
  public:
-  RecordView(std::string_view bytes, const std::string& file, const std::string& what) : bytes_(bytes), file_(file), what_(what) {}
+  RecordView(std::string_view bytes, const std::string& file, const std::string& what)
+      : bytes_(bytes), file_(file), what_(what) {}
 
   template <class T>
   T take() {
@@ -97,7 +99,8 @@ class RecordReader {
     bytes_.assign(std::istreambuf_iterator<char>(in), {});
     if (in.bad()) throw DataError(file_, "cannot be read");
     const auto length = std::min(bytes_.size(), kMagic.size());
-    if (std::string_view(bytes_).substr(0, length) != kMagic.substr(0, length)) throw DataError(file_, "is not a map.ppm");
+    if (std::string_view(bytes_).substr(0, length) != kMagic.substr(0, length))
+      throw DataError(file_, "is not a map.ppm");
     at_ = kMagic.size();
     if (bytes_.size() < at_) throw DataError(file_, "is cut short");
   }
@@ -244,6 +247,8 @@ void save_ppm(const PpmMap& map, const std::filesystem::path& path) {
   file.commit();
 }
 
-std::shared_ptr<const PpmMap> load_ppm(const std::filesystem::path& path) { return PpmReader(path).read(); }
+std::shared_ptr<const PpmMap> load_ppm(const std::filesystem::path& path) {
+  return PpmReader(path).read();
+}
 
 }  // namespace ppm

@@ -8,8 +8,8 @@
 namespace ppm {
 
 PpmMap::PpmMap(const PpmSettings& settings) : settings_(settings) {
-  PPM_CHECK(settings.cell_size_m > 0 && settings.texel_size_m > 0 && settings.prior_sigma_m > 0, "cell {} m, texel {} m, prior {} m",
-            settings.cell_size_m, settings.texel_size_m, settings.prior_sigma_m);
+  PPM_CHECK(settings.cell_size_m > 0 && settings.texel_size_m > 0 && settings.prior_sigma_m > 0,
+            "cell {} m, texel {} m, prior {} m", settings.cell_size_m, settings.texel_size_m, settings.prior_sigma_m);
   PPM_CHECK(settings.max_divisions >= 1 && settings.max_divisions <= 255, "{} divisions", settings.max_divisions);
 }
 
@@ -17,10 +17,12 @@ Cell PpmMap::cell_of(const Eigen::Vector3f& p) const {
   return (p.cast<double>() / settings_.cell_size_m).array().floor().cast<int>();
 }
 
-std::uint32_t PpmMap::divisions_for(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) const {
+std::uint32_t PpmMap::divisions_for(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                                    const Eigen::Vector3f& c) const {
   const double area = 0.5 * (b - a).cross(c - a).norm();
   const double edge = std::sqrt(area * 4.0 / std::sqrt(3.0));
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(edge / settings_.texel_size_m), 1.0, double(settings_.max_divisions)));
+  return static_cast<std::uint32_t>(
+      std::clamp(std::ceil(edge / settings_.texel_size_m), 1.0, double(settings_.max_divisions)));
 }
 
 MapStats PpmMap::stats() const {

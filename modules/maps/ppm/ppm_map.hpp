@@ -9,15 +9,18 @@ namespace ppm {
 
 /// Fixed when a map is made.
 struct PpmSettings {
-  double cell_size_m = 1.0;      ///< edge of the cubic cell that holds a chunk; a face goes to the cell of its centroid and stays there
-  double texel_size_m = 0.02;    ///< wanted distance between texels
-  double prior_sigma_m = 0.05;   ///< standard deviation of an unobserved texel's offset
+  /// Edge of the cubic cell that holds a chunk; a face goes to the cell of its centroid and stays there.
+  double cell_size_m = 1.0;
+  double texel_size_m = 0.02;   ///< wanted distance between texels
+  double prior_sigma_m = 0.05;  ///< standard deviation of an unobserved texel's offset
   int max_divisions = 64;
 };
 
-/// A probabilistic polygonal mesh: triangles with, per texel, mean and variance of the surface's offset along the face normal.
-/// Invariants (check()): the same vertex id has the same position and normal in every chunk; an edge has at most two faces, wound
-/// oppositely; no degenerate face; texel and evidence counts fit; no vertex without a face; open edges and boxes are up to date.
+/// A probabilistic polygonal mesh: triangles with, per texel, mean and variance of the surface's offset along the face
+/// normal.
+/// Invariants, see check(): the same vertex id has the same position and normal in every chunk; an edge has at most
+/// two faces, wound oppositely; no degenerate face; texel and evidence counts fit; no vertex without a face; open edges
+/// and boxes are up to date.
 /// Source: paper, section 3.
 class PpmMap final : public Map {
  public:
@@ -34,8 +37,9 @@ class PpmMap final : public Map {
   const ChunkTable<PpmChunk>& table() const { return table_; }
   std::uint32_t vertex_ids() const { return next_vertex_id_; }  ///< ids handed out so far
   Cell cell_of(const Eigen::Vector3f& p) const;
-  /// Divisions for a face with these corners: the edge of the equilateral triangle of its area over the texel size, rounded up,
-  /// 1 .. max_divisions. So a sliver gets the texels that its area deserves, wider apart along it than across.
+  /// Divisions for a face with these corners: the edge of the equilateral triangle of its area over the texel size,
+  /// rounded up, 1 .. max_divisions. So a sliver gets the texels that its area deserves, wider apart along it than
+  /// across.
   std::uint32_t divisions_for(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) const;
   /// By how many cells, at most, a chunk's faces reach out of its cell (an upper bound over the map's life).
   int reach() const { return reach_; }

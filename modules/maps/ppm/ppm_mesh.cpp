@@ -46,7 +46,9 @@ class VertexOffsets {
   }
 
   /// Where a vertex's own texels were never observed, its faces speak for it: else it would stand out as a spike.
-  const Fusion& at(std::size_t v) const { return corner_[v].variance() < 0.9 * prior_variance_ ? corner_[v] : around_[v]; }
+  const Fusion& at(std::size_t v) const {
+    return corner_[v].variance() < 0.9 * prior_variance_ ? corner_[v] : around_[v];
+  }
 
  private:
   std::vector<Fusion> corner_, around_;
@@ -84,7 +86,8 @@ Mesh PpmMap::mesh(Surface surface) const {
     offsets.add_chunk(chunk, number);
     const Geometry& geometry = *chunk.geometry;
     for (const auto& [a, b, c] : geometry.face)
-      mesh.face.push_back({number[geometry.vertex_id[a]], number[geometry.vertex_id[b]], number[geometry.vertex_id[c]]});
+      mesh.face.push_back(
+          {number[geometry.vertex_id[a]], number[geometry.vertex_id[b]], number[geometry.vertex_id[c]]});
   }
   mesh.mean.resize(mesh.position.size());
   mesh.variance.resize(mesh.position.size());

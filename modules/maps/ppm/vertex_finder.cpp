@@ -30,7 +30,8 @@ const std::vector<std::uint32_t>& VertexFinder::candidates(const Cell& cell) {
   for (int x = -r; x <= r; ++x)
     for (int y = -r; y <= r; ++y)
       for (int z = -r; z <= r; ++z)
-        if (const auto chunk = table.find(cell + Cell(x, y, z)); chunk != ChunkTable<PpmChunk>::kNone) chunks.push_back(chunk);
+        if (const auto chunk = table.find(cell + Cell(x, y, z)); chunk != ChunkTable<PpmChunk>::kNone)
+          chunks.push_back(chunk);
   std::sort(chunks.begin(), chunks.end());
   return chunks;
 }

@@ -14,9 +14,9 @@ struct VertexCopy {
   bool operator==(const VertexCopy&) const = default;
 };
 
-/// Finds the copies of vertices in the chunks of a map: the chunks near the vertex's cell are candidates, those whose box holds
-/// it are searched. Remembers the candidates by cell, so ask one finder for many vertices. Chunks may change while it is used,
-/// but none may be added.
+/// Finds the copies of vertices in the chunks of a map: the chunks near the vertex's cell are candidates, those whose
+/// box holds it are searched. Remembers the candidates by cell, so ask one finder for many vertices. Chunks may change
+/// while it is used, but none may be added.
 class VertexFinder {
  public:
   explicit VertexFinder(const PpmMap& map) : map_(map) {}

@@ -22,7 +22,8 @@ void add_faces(const Geometry& geometry, std::span<const Use> uses, std::vector<
     const auto& [a, b, c] = face;
     if ((item[a] & item[b] & item[c]) == Geometry::kNoVertex) continue;
     const Eigen::Vector3d p = geometry.position[a].cast<double>();
-    const Eigen::Vector3d cross = (geometry.position[b].cast<double>() - p).cross(geometry.position[c].cast<double>() - p);
+    const Eigen::Vector3d cross =
+        (geometry.position[b].cast<double>() - p).cross(geometry.position[c].cast<double>() - p);
     for (auto v : face) {
       if (item[v] == Geometry::kNoVertex) continue;
       Sum& sum = sums[item[v]];

@@ -14,8 +14,9 @@ struct CopyNormal {
   Eigen::Vector3f normal;
 };
 
-/// Area-weighted normals of some vertices (ascending ids, each once, with their positions) over all their faces in all chunks:
-/// one entry a copy, all copies of a vertex alike. Where the faces around a vertex cancel, it gets its first face's normal.
+/// Area-weighted normals of some vertices (ascending ids, each once, with their positions) over all their faces in all
+/// chunks: one entry a copy, all copies of a vertex alike. Where the faces around a vertex cancel, it gets its first
+/// face's normal.
 std::vector<CopyNormal> vertex_normals(const PpmMap& map, std::span<const NewVertex> vertices);
 
 }  // namespace ppm
