@@ -98,7 +98,7 @@ void add_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   options->graph.add_to(*command);
   command->add_option("--frames", options->frames, "At most so many frames")
-      ->check(CLI::Range(std::int64_t{1}, options->frames))
+      ->check(CLI::PositiveNumber)
       ->type_name("N");
   command
       ->add_option("--threads", options->threads,

@@ -58,7 +58,15 @@ Graph GraphBuilder::build(Config file, const std::vector<Override>& overrides) {
 
 void GraphBuilder::read_file(const Config& file) {
   check_keys(file, "the graph", {"name", "seed", "plugins", "nodes"});
-  if (auto* name = required(file, "the graph", "name", Config::Kind::scalar)) graph_.name_ = name->text();
+  if (auto* name = required(file, "the graph", "name", Config::Kind::scalar)) {
+    graph_.name_ = name->text();
+    // It names the folder of the results.
+    static const std::regex pattern("[A-Za-z0-9_][A-Za-z0-9_.-]*");
+    if (!std::regex_match(graph_.name_, pattern)) {
+      report(name->place(),
+             fmt::format("graph name '{}': letters, digits, '_', '-' and '.', not '-' or '.' first", graph_.name_));
+    }
+  }
   if (auto* seed = file.find("seed")) {
     std::int64_t value = 0;
     Params params;

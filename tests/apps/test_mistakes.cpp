@@ -90,6 +90,19 @@ TEST_CASE("a command line that makes no sense ends with 2 and says why") {
   CHECK_THAT(ppm_command({"--version"})->out, StartsWith("ppm "));
 }
 
+TEST_CASE("a graph's name cannot lead its results out of the folder of runs") {
+  SmallRoom room;
+  for (const char* name : {"../evil", "/evil", "..", "a/b", "\"\"", "-x", "two words"}) {
+    CAPTURE(name);
+    auto text = content(room.graph);
+    text.replace(text.find("small"), 5, name);
+    write_text(room.folder / "named.yaml", text);
+    const auto check = ppm_command({"check", (room.folder / "named.yaml").string()});
+    CHECK(check->code == 2);
+    CHECK_THAT(check->err, Contains("named.yaml:1:7: graph name"));
+  }
+}
+
 TEST_CASE("files that are not there") {
   TempFolder folder;
   const auto no = (folder / "no.yaml").string();
