@@ -228,21 +228,20 @@ void register_all() {
   auto add_view = [&](const std::string& name, EmbreeViewOptions v, EmbreeOptions s, double cell) {
     add(name, [=](benchmark::State& st) { view(st, v, s, cell); })->Arg(20000)->Arg(100000);
   };
-  for (int packet : {1, 4, 8, 16})
-    add_view("chunks_1m/packet:" + std::to_string(packet), {packet, true, false}, {}, 1.0);
-  add_view("chunks_1m/incoherent", {16, false, false}, {}, 1.0);
-  add_view("chunks_1m/fast_test", {16, true, false}, {false, true, {}}, 1.0);
-  add_view("chunks_1m/backfaces_hit", {16, true, false}, {true, false, {}}, 1.0);
-  add_view("chunks_1m/linear_texels", {16, true, true}, {}, 1.0);
-  add_view("chunks_1m/build_low", {16, true, false}, {true, true, EmbreeOptions::Build::low}, 1.0);
-  add_view("chunks_1m/build_high", {16, true, false}, {true, true, EmbreeOptions::Build::high}, 1.0);
+  using Build = EmbreeOptions::Build;
+  for (int packet : {1, 4, 8, 16}) add_view("chunks_1m/packet:" + std::to_string(packet), {.packet = packet}, {}, 1.0);
+  add_view("chunks_1m/incoherent", {.coherent = false}, {}, 1.0);
+  add_view("chunks_1m/nearest_texels", {.linear_texels = false}, {}, 1.0);
+  add_view("chunks_1m/fast_test", {}, {.robust = false}, 1.0);
+  add_view("chunks_1m/backfaces_hit", {}, {.cull_back_faces = false}, 1.0);
+  add_view("chunks_1m/build_low", {}, {.build = Build::low}, 1.0);
+  add_view("chunks_1m/build_high", {}, {.build = Build::high}, 1.0);
   for (double cell : {0.5, 2.0, 50.0}) add_view("chunks_" + std::to_string(cell).substr(0, 4) + "m", {}, {}, cell);
   for (double cell : {0.5, 1.0, 50.0}) {
     const std::string m = std::to_string(cell).substr(0, 3) + "m";
     add("instances_" + m, [=](benchmark::State& st) { instanced_view(st, cell); })->Arg(20000)->Arg(100000);
     add("instances_build_" + m, [=](benchmark::State& st) { instance_build(st, cell); })->Arg(20000)->Arg(100000);
   }
-  using Build = EmbreeOptions::Build;
   for (auto [name, quality] : {std::pair{"low", Build::low}, {"medium", Build::medium}, {"high", Build::high}})
     add(std::string("build/") + name, [q = quality](benchmark::State& st) { build(st, q); })
         ->Args({100000, 1})
