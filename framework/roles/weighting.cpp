@@ -16,7 +16,7 @@ double entropy(const std::vector<double>& log_weight) {
 
 }  // namespace
 
-Weighting::Weighting() : belief(this, {{"prediction"}, {}, {}}) {
+Weighting::Weighting(int pixels) : belief(this, {{"prediction"}, {}, {}}), pixels_(pixels) {
   params_.add("pixels", pixels_)
       .range(0, 1e8)
       .doc(

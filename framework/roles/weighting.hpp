@@ -42,16 +42,17 @@ class Weighting : public ParticleModule {
   const ParticleSet& particles() const override { return *belief; }
 
  protected:
-  Weighting();
+  /// pixels: default of the parameter of that name.
+  explicit Weighting(int pixels);
   /// The likelihood of the measured ranges. Called from any worker; sums in the order of the pixels.
   virtual ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals) const = 0;
 
-  int pixels_ = 0;
-  double jump_m_ = 0;
+  double jump_m_ = 0;  ///< see PixelGrid; for likelihoods that leave jumps out
 
  private:
   const MeasuredPixels& measured(const Prediction& prediction);
 
+  int pixels_;
   enum class Phase { centred, random } phase_ = Phase::centred;
   double phase_x_ = 0.5, phase_y_ = 0.5;  // of this frame, in steps
   std::mutex mutex_;  // guards measured_: made by the first tick of a frame, when the prediction's stride is known

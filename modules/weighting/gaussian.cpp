@@ -16,7 +16,7 @@ using namespace ppm;
 /// source  paper, section 4.2
 class GaussianWeighting final : public Weighting {
  public:
-  GaussianWeighting() {
+  GaussianWeighting() : Weighting(0) {
     params_
         .add_choice("variance", variance_,
                     {{"texel", Variance::texel}, {"texel_and_sensor", Variance::texel_and_sensor}})

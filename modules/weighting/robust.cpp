@@ -19,8 +19,8 @@ using namespace ppm;
 ///         exponent of the likelihood)
 class RobustWeighting final : public Weighting {
  public:
-  RobustWeighting() {
-    pixels_ = 1200;
+  RobustWeighting() : Weighting(1200) {
+    jump_m_ = 0.1;
     params_.add("temper", temper_)
         .range(0, 1)
         .above(0)
