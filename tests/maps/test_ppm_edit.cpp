@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "framework/core/error.hpp"
+#include "framework/core/parallel.hpp"
 #include "tests/support/ppm_maps.hpp"
 
 using namespace ppm;
@@ -67,6 +68,24 @@ TEST_CASE("the only handle to a map gives its memory to the session") {
   PpmEdit edit(std::move(map));
   edit.texels(0).mean[0] = 1;
   CHECK(edit.commit().get() == address);
+}
+
+TEST_CASE("copies of a map are edited from several threads at once, with the same results as one after the other") {
+  const Workers workers(4);
+  auto edited = [](std::shared_ptr<const PpmMap> map, std::size_t i) {
+    PpmEdit edit(std::move(map));
+    for (std::uint32_t c = 0; c < edit.map().table().size(); ++c)
+      edit.texels(c).mean[i] += 0.01f * static_cast<float>(i);
+    edit.remove_face(static_cast<std::uint32_t>(i % 4), static_cast<std::uint32_t>(i % 5));
+    edit.move_vertex(1, 2, edit.map().table()[1].geometry->position[2] + Eigen::Vector3f(0, 0, 0.001f));
+    return edit.commit();
+  };
+  std::vector<std::shared_ptr<const PpmMap>> maps(24, height_field(16, 12, 0.1f, small_cells())), serial = maps;
+  for (int round = 0; round < 3; ++round) {
+    workers.for_each(maps.size(), [&](std::size_t i, int) { maps[i] = edited(std::move(maps[i]), i); });
+    for (std::size_t i = 0; i < serial.size(); ++i) serial[i] = edited(std::move(serial[i]), i);
+    for (std::size_t i = 0; i < maps.size(); ++i) REQUIRE(digest_of(*maps[i]) == digest_of(*serial[i]));
+  }
 }
 
 TEST_CASE("a commit without changes shares every chunk") {

@@ -1,7 +1,6 @@
 #include "modules/maps/ppm/ppm_edit.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <unordered_map>
 
@@ -31,6 +30,13 @@ void sort_by_id(std::vector<NewVertex>& vertices) {
   std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   auto end = std::unique(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
   vertices.erase(end, vertices.end());
+}
+
+/// True where nobody else can get at the map any more. use_count() alone does not order us after what other threads
+/// read before they dropped their handles; taking a second handle does, because it changes the count as they did.
+bool is_only_handle(const std::shared_ptr<const PpmMap>& map) {
+  const auto second = map;
+  return map.use_count() == 2;
 }
 
 /// By how many cells b is away from a.
@@ -158,10 +164,7 @@ class PpmEdit::Commit {
 
 PpmEdit::PpmEdit(std::shared_ptr<const PpmMap> map) : staged_(std::make_unique<Staged>()) {
   PPM_CHECK(map != nullptr, "an edit needs a map");
-  if (map.use_count() == 1) {
-    // Nobody else can get at the object any more; what other threads read of it happened before they dropped their
-    // handles.
-    std::atomic_thread_fence(std::memory_order_acquire);
+  if (is_only_handle(map)) {
     map_ = std::const_pointer_cast<PpmMap>(std::move(map));
   } else {
     map_ = std::make_shared<PpmMap>(*map);
