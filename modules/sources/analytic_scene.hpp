@@ -40,7 +40,6 @@ class AnalyticScene {
   double distance(const Eigen::Vector3d& p) const;
 
   const std::vector<Solid>& solids() const { return solids_; }
-  const std::vector<SceneObject>& objects() const { return objects_; }
   /// The object that a solid is part of.
   const SceneObject& object_of(std::uint32_t solid) const;
 

@@ -10,8 +10,7 @@ void add_bookshelf(SceneBuilder& s, const Isometry3d& T) {
   constexpr double kDepth = 0.32, kWidth = 1.70, kHeight = 2.0;
   constexpr int kShelves = 5;
   s.begin_object("bookshelf", T);
-  for (double y : {-1.0, 0.0, 1.0})
-    box(s, {0, y * (kWidth / 2 - 0.0125), kHeight / 2}, {kDepth, 0.025, kHeight}, kOak);
+  for (double y : {-1.0, 0.0, 1.0}) box(s, {0, y * (kWidth / 2 - 0.0125), kHeight / 2}, {kDepth, 0.025, kHeight}, kOak);
   box(s, {-kDepth / 2 + 0.005, 0, kHeight / 2}, {0.01, kWidth, kHeight}, kOak);
   for (int k = 0; k <= kShelves; ++k) box(s, {0, 0, 0.06 + 0.385 * k}, {kDepth, kWidth, 0.025}, kOak);
 
@@ -24,8 +23,10 @@ void add_bookshelf(SceneBuilder& s, const Isometry3d& T) {
       const int count = 6 + (shelf + 2 * half) % 4;
       for (int i = 0; i < count; ++i) {  // sizes that look random and are not; fronts nearly in line, as books stand
         const int h = (shelf * 37 + half * 17 + i * 11) % 13;
-        const double thick = 0.040 + 0.003 * h, high = 0.22 + 0.007 * ((h * 5) % 13), deep = 0.27 + 0.002 * ((h * 7) % 13);
-        box(s, {-kDepth / 2 + 0.01 + deep / 2, y + thick / 2, floor + high / 2}, {deep, thick, high}, covers[(h + i) % 8]);
+        const double thick = 0.040 + 0.003 * h, high = 0.22 + 0.007 * ((h * 5) % 13),
+                     deep = 0.27 + 0.002 * ((h * 7) % 13);
+        box(s, {-kDepth / 2 + 0.01 + deep / 2, y + thick / 2, floor + high / 2}, {deep, thick, high},
+            covers[(h + i) % 8]);
         y += thick;
       }
       if ((shelf + half) % 3 == 0) cylinder(s, {0.04, y + 0.12, floor + 0.11}, 0.08, 0.22, kBlue);

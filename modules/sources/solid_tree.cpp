@@ -11,6 +11,7 @@ namespace ppm {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 2;
+constexpr std::size_t kStackSize = 256;
 constexpr float kPadding_m = 1e-4f, kHuge = 1e18f;
 
 double half_area(const Eigen::AlignedBox3d& box) {
@@ -46,10 +47,11 @@ SolidTree::SolidTree(const std::vector<Solid>& solids) : order_(solids.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Solid& solid : solids) boxes.push_back(bounds(solid));
-  build(boxes, {0, static_cast<std::uint32_t>(solids.size())});
+  build(boxes, {0, static_cast<std::uint32_t>(solids.size())}, 1);
 }
 
-std::uint32_t SolidTree::build(const std::vector<Eigen::AlignedBox3d>& boxes, Range range) {
+std::uint32_t SolidTree::build(const std::vector<Eigen::AlignedBox3d>& boxes, Range range, std::size_t level) {
+  PPM_CHECK(3 * level < kStackSize, "a tree of {} levels", level);  // cast() leaves three children a level behind
   std::vector<Range> children{range};
   for (int round = 0; round < 2; ++round)
     for (std::size_t i = children.size(); i-- > 0;)
@@ -69,7 +71,7 @@ std::uint32_t SolidTree::build(const std::vector<Eigen::AlignedBox3d>& boxes, Ra
       nodes_[number].high[k][c] = static_cast<float>(box.max()[k]) + kPadding_m;
     }
     const bool leaf = children[c].count <= kLeafSize;
-    const std::uint32_t first = leaf ? children[c].first : build(boxes, children[c]);  // nodes_ may move
+    const std::uint32_t first = leaf ? children[c].first : build(boxes, children[c], level + 1);  // nodes_ may move
     nodes_[number].first[c] = first;
     nodes_[number].count[c] = leaf ? children[c].count : 0;
   }
@@ -109,7 +111,7 @@ TreeHit SolidTree::cast(const std::vector<Solid>& solids, const Eigen::Vector3d&
   };
   TreeHit best;
   const BoxRay ray(origin, direction);
-  std::array<Visit, 256> stack;
+  std::array<Visit, kStackSize> stack;
   std::size_t depth = 0;
   float limit = kHuge;
   stack[depth++] = {0, 0, 0};

@@ -36,8 +36,8 @@ class SolidTree {
     std::uint32_t first, count;  // of order_
   };
   struct BoxRay;
-  /// Returns the new node's number.
-  std::uint32_t build(const std::vector<Eigen::AlignedBox3d>& boxes, Range range);
+  /// Returns the new node's number. level: 1 for the root.
+  std::uint32_t build(const std::vector<Eigen::AlignedBox3d>& boxes, Range range, std::size_t level);
   /// Orders a range of order_ into the two parts of least cost; returns the first and makes `range` the second.
   Range split(const std::vector<Eigen::AlignedBox3d>& boxes, Range& range);
 

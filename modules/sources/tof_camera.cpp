@@ -21,7 +21,7 @@ struct Echo {
   Eigen::Vector3f color = Eigen::Vector3f::Zero();  // linear light
 };
 
-/// Light of a lamp below the ceiling and of the sky through the room, for pictures.
+/// Light for pictures: of a lamp below the ceiling, and some from all around, more from above.
 Eigen::Vector3f lit(const Eigen::Vector3f& albedo, const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
   const double lamp = std::max(0.0, normal.dot((Eigen::Vector3d(0, 0.3, 2.3) - p).normalized()));
   return albedo * static_cast<float>(0.40 + 0.10 * normal.z() + 0.50 * lamp);

@@ -10,8 +10,9 @@ namespace ppm {
 /// It measures the phase of modulated light. A pixel's signal is the sum of what the surfaces inside it send back, each
 /// with amplitude reflectance * cos(angle of incidence) / (range / 1 m)^2; at an edge the sum's phase lies between the
 /// two ranges (a flying pixel). The range's standard deviation is noise * sqrt(floor^2 + (c / amplitude)^2); weak
-/// signals and grazing views give no return. Source: Lange & Seitz, "Solid-state time-of-flight range camera", IEEE JQE
-/// 37(3), 2001 (phase noise goes with 1 / amplitude).
+/// signals and grazing views give no return.
+/// Source: Lange & Seitz, "Solid-state time-of-flight range camera", IEEE JQE 37(3), 2001 (phase noise ~ 1 /
+/// amplitude).
 struct TofCamera {
   Camera camera{176, 144, 220, 220, 87.5, 71.5};  ///< 43.6 x 36.2 degrees
   double noise = 1;                               ///< scale of the range noise; 0 = exact ranges
