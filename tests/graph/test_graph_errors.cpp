@@ -123,7 +123,7 @@ TEST_CASE("a graph has a source") {
         "g.yaml:3:3: the graph has no source of frames; modules that are one: source.toy, source.toy_word");
 }
 
-TEST_CASE("--set passes the checks of the file") {
+TEST_CASE("values given with --set pass the checks of the file") {
   const std::string graph = with("  - {name: init, module: map.toy}\n");
   auto built = Graph::build(parse_yaml(graph, "g.yaml"), ToyRun::registry(),
                             {parse_override("init.particles=9"), parse_override("seed=12")});
