@@ -59,7 +59,7 @@ TEST_CASE("mistakes of --set have a place in what was typed, and come together w
   CHECK(lines(complaint({"motion.sigma_t=2 s"})).size() == 2);
 }
 
-TEST_CASE("--set and --seed reach the graph") {
+TEST_CASE("options --set and --seed reach the graph") {
   SmallRoom room;
   const auto run =
       room.run({"--frames", "1", "--set", "init.particles=3", "--set", "motion.sigma_t=1 cm", "--seed", "12"});

@@ -68,7 +68,7 @@ TEST_CASE("the same bytes for 1, 2 and 4 threads, and from the effective configu
   CHECK(content(room.folder / "again/config.effective.yaml") == content(room.out / "config.effective.yaml"));
 }
 
-TEST_CASE("--frames ends early, --quiet is quiet, and only frames up to the last mapped one are scored") {
+TEST_CASE("option --frames ends early, --quiet is quiet, and only frames up to the last mapped one are scored") {
   SmallRoom room;
   const auto run = room.run({"--frames", "5", "--quiet"});
   REQUIRE(run->code == 0);
