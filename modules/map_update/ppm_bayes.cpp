@@ -73,6 +73,11 @@ class PpmBayesUpdate final : public MapEditor {
         .doc("Most share of a new triangle's samples that the map explains already.");
     params_.add("cosine_least", s.triangle.cosine_least).range(0, 1)
         .doc("New triangles must face the camera at least so much (cosine of the angle of incidence).");
+    params_.add("steep_cosine", s.triangle.steep_cosine).range(0, 1)
+        .doc("New triangles that face the camera less than so much must also agree with the surface at their corners: a slanted "
+             "surface does, a bridge over a depth jump does not.");
+    params_.add("steep_agree", s.triangle.steep_agree).range(-1, 1)
+        .doc("Least mean cosine between such a triangle's normal and those at its corners.");
   }
   void add_holes() {
     params_.add("hole_edges", settings_.holes.edges_most).range(0, 1000)

@@ -90,13 +90,13 @@ TEST_CASE("the boundary refuses a third face at an edge and a face wound against
     return 0u;
   };
   const auto a = number(0, 0), b = number(0.5f, 0);
-  const auto tip = boundary.add_vertex(above.view, {0.25f, -0.9f, 0});
+  const auto tip = boundary.add_vertex(above.view, {0.25f, -0.9f, 0}, Eigen::Vector3f::UnitZ());
   CHECK(boundary.is_open(a, b));
   CHECK_FALSE(boundary.accepts({a, b, tip}));  // wound like the face that is there
   CHECK(boundary.accepts({b, a, tip}));
   boundary.add({b, a, tip});
   CHECK_FALSE(boundary.is_open(a, b));
-  CHECK_FALSE(boundary.accepts({b, a, boundary.add_vertex(above.view, {0.25f, -0.8f, 0})}));  // a third
+  CHECK_FALSE(boundary.accepts({b, a, boundary.add_vertex(above.view, {0.25f, -0.8f, 0}, Eigen::Vector3f::UnitZ())}));  // a third
 }
 
 TEST_CASE("a hole is filled, its loop closed, and the outer rim left as it is") {

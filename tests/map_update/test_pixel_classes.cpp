@@ -24,6 +24,8 @@ std::vector<std::uint8_t> classes_of(const std::function<float(int, int)>& measu
 
 constexpr auto wall = [](int, int) { return 2.0f; };
 constexpr auto nothing = [](int, int) { return NAN; };
+const Eigen::Vector3f kBack(0, 0, -1);
+const std::array<Eigen::Vector3f, 3> kFacing{kBack, kBack, kBack};
 constexpr std::size_t kMiddle = 30 * 80 + 40;
 
 }  // namespace
@@ -77,13 +79,12 @@ TEST_CASE("a triangle is surface where the measurement lies on it") {
   const auto corner = [&](float z0, float z1, float z2) {
     return std::array<Eigen::Vector3f, 3>{view.ray(30, 20) * z0, view.ray(30, 30) * z1, view.ray(42, 20) * z2};
   };
-  CHECK(is_surface(view, classes, {}, corner(2, 2, 2), pixel));
-  CHECK_FALSE(is_surface(view, classes, {}, corner(1.9f, 1.9f, 1.9f), pixel));  // floats in front
-  CHECK_FALSE(is_surface(view, classes, {}, corner(2, 2, 1.2f), pixel));        // spans a jump
-  CHECK_FALSE(is_surface(view, classes, {}, corner(2, 2.0f, 2), {pixel[0], pixel[2], pixel[1]}) == false);
+  CHECK(is_surface(view, classes, {}, corner(2, 2, 2), kFacing, pixel));
+  CHECK_FALSE(is_surface(view, classes, {}, corner(1.9f, 1.9f, 1.9f), kFacing, pixel));  // floats in front
+  CHECK_FALSE(is_surface(view, classes, {}, corner(2, 2, 1.2f), kFacing, pixel));        // spans a jump
 
   std::fill(classes.begin(), classes.end(), std::uint8_t{kOwnHit | kExplained});
-  CHECK_FALSE(is_surface(view, classes, {}, corner(2, 2, 2), pixel));  // the map has it already
+  CHECK_FALSE(is_surface(view, classes, {}, corner(2, 2, 2), kFacing, pixel));  // the map has it already
 }
 
 TEST_CASE("a triangle through flying pixels is refused, though the measurement lies on it") {
@@ -95,5 +96,25 @@ TEST_CASE("a triangle through flying pixels is refused, though the measurement l
   const std::vector<std::uint8_t> classes(frame.depth.size(), kWanted);
   const std::array<Eigen::Vector2f, 3> pixel{Eigen::Vector2f(38, 20), Eigen::Vector2f(38, 24), Eigen::Vector2f(42, 20)};
   const std::array<Eigen::Vector3f, 3> corner{view.ray(38, 20) * 1.0f, view.ray(38, 24) * 1.0f, view.ray(42, 20) * 2.0f};
-  CHECK_FALSE(is_surface(view, classes, {}, corner, pixel));
+  CHECK_FALSE(is_surface(view, classes, {}, corner, kFacing, pixel));
+}
+
+TEST_CASE("a steep triangle is surface where the surfaces at its corners are as steep, a bridge where they are not") {
+  // A floor seen at a cosine of 0.2: y = 0.4 below the camera, about 2 m away.
+  const Camera camera = small_camera();
+  const Frame frame = frame_of([&](int, int y) { return y > 31 ? 0.4f / static_cast<float>(camera.ray(0, y).y()) : NAN; });
+  const Prediction none = prediction_of(nothing);
+  UpdateView view;
+  view.build(frame, none);
+  const std::vector<std::uint8_t> classes(frame.depth.size(), kWanted);
+  const std::array<Eigen::Vector2f, 3> pixel{Eigen::Vector2f(40, 42), Eigen::Vector2f(34, 46), Eigen::Vector2f(46, 46)};
+  std::array<Eigen::Vector3f, 3> corner;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3f ray = view.ray(pixel[k].x(), pixel[k].y());
+    corner[k] = ray * (0.4f / ray.y());
+  }
+  const Eigen::Vector3f up(0, -1, 0);
+  CHECK((corner[1] - corner[0]).cross(corner[2] - corner[0]).y() < 0);
+  CHECK(is_surface(view, classes, {}, corner, {up, up, up}, pixel));
+  CHECK_FALSE(is_surface(view, classes, {}, corner, kFacing, pixel));
 }

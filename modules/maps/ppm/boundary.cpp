@@ -98,8 +98,8 @@ void Boundary::add(const std::array<std::uint32_t, 3>& face) {
   }
 }
 
-std::uint32_t Boundary::add_vertex(const UpdateView& view, const Eigen::Vector3f& point) {
-  vertex.push_back({RimVertex::kNew, view.absolute(point), point, Eigen::Vector3f::Zero()});
+std::uint32_t Boundary::add_vertex(const UpdateView& view, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
+  vertex.push_back({RimVertex::kNew, view.absolute(point), point, normal});
   first_.push_back(kNone);
   return static_cast<std::uint32_t>(vertex.size() - 1);
 }

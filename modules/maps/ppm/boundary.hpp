@@ -21,7 +21,7 @@ struct RimVertex {
   std::uint32_t id = kNew;  ///< the map's; kNew until the edit session gives it one
   Eigen::Vector3f position; ///< m, map frame
   Eigen::Vector3f point;    ///< the same relative to the view's centre
-  Eigen::Vector3f normal;   ///< unit; zero for a new vertex
+  Eigen::Vector3f normal;   ///< unit
 };
 
 /// The boundary of the mesh in a view, over all chunks: the directed edges of faces that have no partner on the other side. It is kept up to
@@ -44,7 +44,7 @@ class Boundary {
   bool accepts_edge(std::uint32_t a, std::uint32_t b) const { return !is_open(a, b) && !is_shared(a, b); }
   void add(const std::array<std::uint32_t, 3>& face);
   /// A new vertex, without a face yet; returns its number.
-  std::uint32_t add_vertex(const UpdateView& view, const Eigen::Vector3f& point);
+  std::uint32_t add_vertex(const UpdateView& view, const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
   /// The ends of the open edges that leave a vertex.
   void open_from(std::uint32_t a, std::vector<std::uint32_t>& ends) const;
 

@@ -158,7 +158,7 @@ constexpr float kSameSurface = 0.03f;  // planes that differ by more at a corner
 
 /// Planes that meet at a corner.
 struct Meeting {
-  float sum = 0, least = 0, most = 0;
+  float sum = 0, a = 0, b = 0, least = 0, most = 0;
   int leaves = 0, spacing = 0;
 };
 
@@ -197,6 +197,8 @@ std::vector<LeafCorner> leaf_corners(const DisparityImage& image, const std::vec
       m.most = m.leaves ? std::max(m.most, d) : d;
       m.spacing = m.leaves ? std::min(m.spacing, leaf.size) : leaf.size;
       m.sum += d;
+      m.a += leaf.a;
+      m.b += leaf.b;
       ++m.leaves;
     }
   std::vector<LeafCorner> corners;
@@ -204,9 +206,10 @@ std::vector<LeafCorner> leaf_corners(const DisparityImage& image, const std::vec
     for (int x = 0; x < image.cols; ++x) {
       const Meeting& m = meetings[image.at(x, y)];
       if (m.leaves == 0) continue;
-      const float mean = m.sum / static_cast<float>(m.leaves);
+      const auto n = static_cast<float>(m.leaves);
+      const float mean = m.sum / n;
       const bool measured = image.value[image.at(x, y)] == image.value[image.at(x, y)];
-      if (measured || m.most - m.least <= kSameSurface * mean) corners.push_back({x, y, mean, m.spacing});
+      if (measured || m.most - m.least <= kSameSurface * mean) corners.push_back({x, y, mean, m.a / n, m.b / n, m.spacing});
     }
   return corners;
 }

@@ -44,6 +44,7 @@ std::vector<Leaf> disparity_leaves(const DisparityImage& image, const std::vecto
 struct LeafCorner {
   int x, y;
   float disparity;  ///< mean of the planes of the leaves here that fit the measurement
+  float a, b;       ///< its gradient over the image, 1/m/px
   int spacing;      ///< px, size of the smallest of them
 };
 

@@ -86,10 +86,8 @@ class HoleFiller {
     const float twice_area = cross.norm();
     if (!(twice_area > 1e-7f)) return false;
     const Eigen::Vector3f normal = cross / twice_area;
-    for (auto v : f) {
-      const auto& known = boundary_.vertex[v].normal;
-      if (!known.isZero() && known.dot(normal) < settings_.cosine_least) return false;
-    }
+    for (auto v : f)
+      if (boundary_.vertex[v].normal.dot(normal) < settings_.cosine_least) return false;
     const Eigen::Vector3f centroid = (point(f[0]) + point(f[1]) + point(f[2])) / 3;
     const Eigen::Vector3f image = view_.project(centroid);
     const int x = static_cast<int>(std::lround(image.x())), y = static_cast<int>(std::lround(image.y()));

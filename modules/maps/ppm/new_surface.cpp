@@ -11,7 +11,7 @@ namespace {
 /// A vertex of the triangulation.
 struct Node {
   Eigen::Vector2f pixel;
-  Eigen::Vector3f point;                      // relative to the view's centre
+  Eigen::Vector3f point, normal;              // relative to the view's centre
   std::uint32_t number = RimVertex::kNew;     // in the boundary; kNew for a leaf corner that no face uses yet
 };
 
@@ -60,7 +60,7 @@ class SurfaceMaker {
       const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
       if (!near_[view_.at(x, y)] || !is_seen(rim, x, y)) continue;
       node_of_[v] = static_cast<int>(nodes_.size());
-      nodes_.push_back({pixel, rim.point, v});
+      nodes_.push_back({pixel, rim.point, rim.normal, v});
       drop_corners_around(pixel, x, y);
     }
   }
@@ -124,7 +124,13 @@ class SurfaceMaker {
 
   void take_corner(const LeafCorner& c) {
     const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y);
-    nodes_.push_back({{x, y}, view_.ray(x, y) / c.disparity});
+    nodes_.push_back({{x, y}, view_.ray(x, y) / c.disparity, normal_of(c)});
+  }
+
+  /// The normal of the plane of space whose disparity has the corner's value and gradient.
+  Eigen::Vector3f normal_of(const LeafCorner& c) const {
+    const float at_centre = c.disparity - c.a * (static_cast<float>(c.x) - view_.cx) - c.b * (static_cast<float>(c.y) - view_.cy);
+    return -(view_.axes * Eigen::Vector3f(c.a * view_.fx, c.b * view_.fy, at_centre)).normalized();
   }
 
   void triangulate(std::vector<RimFace>& faces) {
@@ -142,11 +148,12 @@ class SurfaceMaker {
 
   void consider(const std::array<std::uint32_t, 3>& t, std::vector<RimFace>& faces) {
     Node* const n[3] = {&nodes_[t[0]], &nodes_[t[1]], &nodes_[t[2]]};
-    if (!is_surface(view_, classes_, settings_.triangle, {n[0]->point, n[1]->point, n[2]->point}, {n[0]->pixel, n[1]->pixel, n[2]->pixel}))
+    if (!is_surface(view_, classes_, settings_.triangle, {n[0]->point, n[1]->point, n[2]->point}, {n[0]->normal, n[1]->normal, n[2]->normal},
+                    {n[0]->pixel, n[1]->pixel, n[2]->pixel}))
       return;
     RimFace face;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (n[k]->number == RimVertex::kNew) n[k]->number = boundary_.add_vertex(view_, n[k]->point);
+      if (n[k]->number == RimVertex::kNew) n[k]->number = boundary_.add_vertex(view_, n[k]->point, n[k]->normal);
       face[k] = n[k]->number;
     }
     if (!boundary_.accepts(face)) return;

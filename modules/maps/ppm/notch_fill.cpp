@@ -78,11 +78,12 @@ class NotchFiller {
     const std::array<Eigen::Vector3f, 3> corner{point(f[0]), point(f[1]), point(f[2])};
     const std::array<Eigen::Vector2f, 3> pixel{pixel_[f[0]], pixel_[f[1]], pixel_[f[2]]};
     const Eigen::Vector3f normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
-    for (auto v : f) {
-      const auto& known = boundary_.vertex[v].normal;
-      if (!known.isZero() && known.dot(normal) < settings_.cosine_least) return false;
+    std::array<Eigen::Vector3f, 3> normals;
+    for (std::size_t k = 0; k < 3; ++k) {
+      normals[k] = boundary_.vertex[f[k]].normal;
+      if (normals[k].dot(normal) < settings_.cosine_least) return false;
     }
-    return is_surface(view_, classes_, settings_.triangle, corner, pixel) && is_empty(f, pixel);
+    return is_surface(view_, classes_, settings_.triangle, corner, normals, pixel) && is_empty(f, pixel);
   }
 
   /// No other boundary vertex is seen inside the face.

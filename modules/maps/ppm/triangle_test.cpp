@@ -58,7 +58,8 @@ void for_pixels_inside(const std::array<Eigen::Vector2f, 3>& t, Visit visit) {
 }  // namespace
 
 bool is_surface(const UpdateView& view, const std::vector<std::uint8_t>& classes, const TriangleSettings& settings,
-                const std::array<Eigen::Vector3f, 3>& corner, const std::array<Eigen::Vector2f, 3>& pixel) {
+                const std::array<Eigen::Vector3f, 3>& corner, const std::array<Eigen::Vector3f, 3>& normals,
+                const std::array<Eigen::Vector2f, 3>& pixel) {
   const Eigen::Vector3f cross = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
   const float twice_area = cross.norm();
   if (!(twice_area > 1e-7f)) return false;
@@ -66,6 +67,7 @@ bool is_surface(const UpdateView& view, const std::vector<std::uint8_t>& classes
   const Eigen::Vector3f centroid = (corner[0] + corner[1] + corner[2]) / 3;
   const float cosine = UpdateView::facing(normal, centroid);
   if (cosine < settings.cosine_least) return false;
+  if (cosine < settings.steep_cosine && normal.dot(normals[0] + normals[1] + normals[2]) < 3 * settings.steep_agree) return false;
   Samples samples(view, classes, settings, normal, normal.dot(centroid), cosine);
   samples.add((pixel[0] + pixel[1] + pixel[2]) / 3);
   for (std::size_t k = 0; k < 3; ++k) samples.add((pixel[k] + pixel[(k + 1) % 3]) / 2);
