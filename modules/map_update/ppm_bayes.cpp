@@ -29,72 +29,116 @@ class PpmBayesUpdate final : public MapEditor {
   MapHandle edit(Context& context, std::size_t particle, MapHandle map, int) override {
     const PredictionHandle seen = belief->prediction[particle];
     PPM_CHECK(seen, "particle {} has no prediction", particle);
-    return update_map(std::static_pointer_cast<const PpmMap>(std::move(map)), *frame, *seen, settings_, context.frame());
+    return update_map(std::static_pointer_cast<const PpmMap>(std::move(map)), *frame, *seen, settings_,
+                      context.frame());
   }
 
  private:
   void add_association() {
-    params_.add("gate_classify", settings_.classify_sigmas).range(0.1, 100)
+    params_.add("gate_classify", settings_.classify_sigmas)
+        .range(0.1, 100)
         .doc("A measurement within so many standard deviations of a predicted surface is of that surface.");
-    params_.add("gate_pose", settings_.gate.pose_sigma).unit("m").range(0, 1)
+    params_.add("gate_pose", settings_.gate.pose_sigma)
+        .unit("m")
+        .range(0, 1)
         .doc("Standard deviation that every gate adds for the error of the pose and of the map.");
-    params_.add("gate_map_most", settings_.gate.map_sigma_most).unit("m").range(0, 1)
+    params_.add("gate_map_most", settings_.gate.map_sigma_most)
+        .unit("m")
+        .range(0, 1)
         .doc("An uncertain texel widens a gate by its standard deviation, but not by more than this.");
-    params_.add("gate_cosine_least", settings_.gate.least_cosine).range(0.01, 1)
+    params_.add("gate_cosine_least", settings_.gate.least_cosine)
+        .range(0.01, 1)
         .doc("At grazing angles gates stay as wide as at this cosine.");
   }
   void add_texels() {
-    params_.add_choice("update", settings_.texels.form, {{"gather", TexelForm::gather}, {"scatter", TexelForm::scatter}})
-        .doc("How measurements reach texels: scatter lets each pixel update the texel that its ray hit (the paper's form), gather "
-             "lets each visible texel read the image where it is seen.");
-    params_.add("gate_update", settings_.texels.gate_sigmas).range(0.1, 100)
+    params_
+        .add_choice("update", settings_.texels.form, {{"gather", TexelForm::gather}, {"scatter", TexelForm::scatter}})
+        .doc(
+            "How measurements reach texels: scatter lets each pixel update the texel that its ray hit (the paper's "
+            "form), gather "
+            "lets each visible texel read the image where it is seen.");
+    params_.add("gate_update", settings_.texels.gate_sigmas)
+        .range(0.1, 100)
         .doc("A measurement farther than so many standard deviations from a texel's surface does not update it.");
-    params_.add("sigma_lateral", settings_.texels.lateral_px).range(0, 10)
+    params_.add("sigma_lateral", settings_.texels.lateral_px)
+        .range(0, 10)
         .doc("Standard deviation of a pixel's direction, in pixels: it counts on slanted surfaces.");
   }
   void add_surface() {
     auto& s = settings_.surface;
-    params_.add("open_radius", settings_.open_radius).range(0, 20)
+    params_.add("open_radius", settings_.open_radius)
+        .range(0, 20)
         .doc("New surface is not started in regions thinner than 2 r + 1 pixels, except every thin_every-th frame.");
-    params_.add("thin_every", settings_.thin_every).range(0, 1000000)
+    params_.add("thin_every", settings_.thin_every)
+        .range(0, 1000000)
         .doc("Frames between those in which thin regions are meshed too; 0 = never.");
-    params_.add("leaf_min", s.leaves.leaf_min).range(1, 64).doc("Smallest leaf of the quadtree, pixels; a power of two.")
+    params_.add("leaf_min", s.leaves.leaf_min)
+        .range(1, 64)
+        .doc("Smallest leaf of the quadtree, pixels; a power of two.")
         .check([&s] { return is_power_of_two(s.leaves.leaf_min) ? "" : "must be a power of two"; });
-    params_.add("leaf_max", s.leaves.leaf_max).range(1, 64).doc("Largest leaf of the quadtree, pixels; a power of two.")
+    params_.add("leaf_max", s.leaves.leaf_max)
+        .range(1, 64)
+        .doc("Largest leaf of the quadtree, pixels; a power of two; leaf_min where that is larger.")
         .check([&s] { return is_power_of_two(s.leaves.leaf_max) ? "" : "must be a power of two"; });
-    params_.add("leaf_rms", s.leaves.rms_sigmas).range(0.1, 100)
-        .doc("A leaf is flat when its residuals in disparity have a root mean square below so many standard deviations.");
-    params_.add("leaf_valid", s.leaves.valid_share).range(0.1, 1).doc("Least share of a leaf's pixels that must be measured.");
-    params_.add("smooth_radius", s.smooth_radius).range(0, 8)
+    params_.add("leaf_rms", s.leaves.rms_sigmas)
+        .range(0.1, 100)
+        .doc(
+            "A leaf is flat when its residuals in disparity have a root mean square below so many standard "
+            "deviations.");
+    params_.add("leaf_valid", s.leaves.valid_share)
+        .range(0.1, 1)
+        .doc("Least share of a leaf's pixels that must be measured.");
+    params_.add("smooth_radius", s.smooth_radius)
+        .range(0, 8)
         .doc("Radius in pixels of the smoothing of disparity before leaves are fitted; 0 = none.");
-    params_.add("fit_share", s.triangle.fit_share).range(0, 1)
+    params_.add("fit_share", s.triangle.fit_share)
+        .range(0, 1)
         .doc("Least share of a new triangle's samples where the measurement lies on it.");
-    params_.add("own_share", s.triangle.own_share).range(0, 1)
+    params_.add("own_share", s.triangle.own_share)
+        .range(0, 1)
         .doc("Most share of a new triangle's samples that the map explains already.");
-    params_.add("cosine_least", s.triangle.cosine_least).range(0, 1)
+    params_.add("cosine_least", s.triangle.cosine_least)
+        .range(0, 1)
         .doc("New triangles must face the camera at least so much (cosine of the angle of incidence).");
-    params_.add("steep_cosine", s.triangle.steep_cosine).range(0, 1)
-        .doc("New triangles that face the camera less than so much must also agree with the surface at their corners: a slanted "
-             "surface does, a bridge over a depth jump does not.");
-    params_.add("steep_agree", s.triangle.steep_agree).range(-1, 1)
+    params_.add("steep_cosine", s.triangle.steep_cosine)
+        .range(0, 1)
+        .doc(
+            "New triangles that face the camera less than so much must also agree with the surface at their corners: a "
+            "slanted "
+            "surface does, a bridge over a depth jump does not.");
+    params_.add("steep_agree", s.triangle.steep_agree)
+        .range(-1, 1)
         .doc("Least mean cosine between such a triangle's normal and those at its corners.");
   }
   void add_holes() {
-    params_.add("hole_edges", settings_.holes.edges_most).range(0, 1000)
+    params_.add("hole_edges", settings_.holes.edges_most)
+        .range(0, 1000)
         .doc("Boundary loops of up to so many edges are closed; 0 = none.");
-    params_.add("hole_perimeter", settings_.holes.perimeter_most).unit("m").range(0, 100)
+    params_.add("hole_perimeter", settings_.holes.perimeter_most)
+        .unit("m")
+        .range(0, 100)
         .doc("Boundary loops up to this length are closed.");
-    params_.add("notch_angle", settings_.notches.angle_most).unit("rad").range(0, 3)
-        .doc("Two boundary edges that meet at a sharper angle are joined by a face: slits close like a zip. 0 = never.");
-    params_.add("notch_edge", settings_.notches.edge_most).unit("m").range(0, 100)
+    params_.add("notch_angle", settings_.notches.angle_most)
+        .unit("rad")
+        .range(0, 3.141592653589793)
+        .doc(
+            "Two boundary edges that meet at a sharper angle are joined by a face: slits close like a zip. 0 = never.");
+    params_.add("notch_edge", settings_.notches.edge_most)
+        .unit("m")
+        .range(0, 100)
         .doc("Only notches whose edges are shorter than this are joined.");
   }
   void add_votes() {
-    params_.add("votes_ratio", settings_.votes.through_per_hit).range(0, 1000)
-        .doc("A face goes when the pixels that saw through it outnumber those that hit it by this factor and votes_free.");
-    params_.add("votes_free", settings_.votes.through_free).range(0, 65535)
+    params_.add("votes_ratio", settings_.votes.through_per_hit)
+        .range(0, 1000)
+        .doc(
+            "A face goes when the pixels that saw through it outnumber those that hit it by this factor and "
+            "votes_free.");
+    params_.add("votes_free", settings_.votes.through_free)
+        .range(0, 65535)
         .doc("Pixels that may see through a face before they count against it.");
-    params_.add("votes_most", settings_.votes.hits_most).range(1, 65535)
+    params_.add("votes_most", settings_.votes.hits_most)
+        .range(1, 65535)
         .doc("Hits of a face count up to here; a low value lets the map follow a scene that changes.");
   }
   static bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
@@ -105,7 +149,8 @@ class PpmBayesUpdate final : public MapEditor {
 }  // namespace
 
 PPM_MODULES(r) {
-  r.add<PpmBayesUpdate>("map_update.ppm_bayes",
-                        "Writes a frame into the mesh: Bayesian texel update, new surface stitched to the old, disproved faces removed.",
-                        "paper, section 4.3");
+  r.add<PpmBayesUpdate>(
+      "map_update.ppm_bayes",
+      "Writes a frame into the mesh: Bayesian texel update, new surface stitched to the old, disproved faces removed.",
+      "paper, section 4.3");
 }

@@ -42,7 +42,8 @@ struct BoxWorld {
   }
 
  private:
-  static std::pair<double, double> slab(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& o, const Eigen::Vector3d& d) {
+  static std::pair<double, double> slab(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& o,
+                                        const Eigen::Vector3d& d) {
     double in = -std::numeric_limits<double>::infinity(), out = -in;
     for (int k = 0; k < 3; ++k) {
       if (std::abs(d[k]) < 1e-12) continue;

@@ -37,7 +37,8 @@ class Mapper {
         const Eigen::Vector3d ray = (T_map_camera.linear() * camera.ray(x, y)).normalized();
         const auto behind = beyond(T_map_camera.translation() + ray * (first.range[p] + 0.002), ray);
         const Eigen::Vector3f n(first.normal[3 * p], first.normal[3 * p + 1], first.normal[3 * p + 2]);
-        seconds += behind.hit(0) && behind.range[0] < 0.05f && n.dot(Eigen::Vector3f(behind.normal[0], behind.normal[1], behind.normal[2])) > 0.7f;
+        seconds += behind.hit(0) && behind.range[0] < 0.05f &&
+                   n.dot(Eigen::Vector3f(behind.normal[0], behind.normal[1], behind.normal[2])) > 0.7f;
       }
     return static_cast<double>(seconds) / hits;
   }

@@ -13,7 +13,8 @@ using namespace ppm::test;
 
 namespace {
 
-/// Looks down at the middle of a 1 m x 1 m height field from 2 m above; the measurement is the field's plane unless given.
+/// Looks down at the middle of a 1 m x 1 m height field from 2 m above; the measurement is the field's plane unless
+/// given.
 struct Above {
   Frame frame;
   Prediction nothing;
@@ -96,7 +97,8 @@ TEST_CASE("the boundary refuses a third face at an edge and a face wound against
   CHECK(boundary.accepts({b, a, tip}));
   boundary.add({b, a, tip});
   CHECK_FALSE(boundary.is_open(a, b));
-  CHECK_FALSE(boundary.accepts({b, a, boundary.add_vertex(above.view, {0.25f, -0.8f, 0}, Eigen::Vector3f::UnitZ())}));  // a third
+  CHECK_FALSE(boundary.accepts(
+      {b, a, boundary.add_vertex(above.view, {0.25f, -0.8f, 0}, Eigen::Vector3f::UnitZ())}));  // a third
 }
 
 TEST_CASE("a hole is filled, its loop closed, and the outer rim left as it is") {
@@ -110,7 +112,8 @@ TEST_CASE("a hole is filled, its loop closed, and the outer rim left as it is") 
   CHECK(faces.size() == 6);  // eight edges
   CHECK(open_edges(boundary) == 40);
   for (const auto& f : faces) {
-    const auto &p = boundary.vertex[f[0]].position, &q = boundary.vertex[f[1]].position, &r = boundary.vertex[f[2]].position;
+    const auto &p = boundary.vertex[f[0]].position, &q = boundary.vertex[f[1]].position,
+               &r = boundary.vertex[f[2]].position;
     CHECK((q - p).cross(r - p).z() > 0);
   }
 }
@@ -157,7 +160,8 @@ TEST_CASE("a slit closes like a zip") {
   for (const auto& f : faces_in(edit.map(), 0.4f, 0.1f, 0.5f, 0.9f)) edit.remove_face(f.chunk, f.face);
   const auto& geometry = *edit.map().table()[0].geometry;
   for (std::uint32_t v = 0; v < geometry.position.size(); ++v)
-    if (std::abs(geometry.position[v].x() - 0.5f) < 0.01f && geometry.position[v].y() > 0.11f && geometry.position[v].y() < 0.89f)
+    if (std::abs(geometry.position[v].x() - 0.5f) < 0.01f && geometry.position[v].y() > 0.11f &&
+        geometry.position[v].y() < 0.89f)
       edit.move_vertex(0, v, {0.42f, geometry.position[v].y(), 0});
   const auto map = edit.commit();
   Boundary boundary;

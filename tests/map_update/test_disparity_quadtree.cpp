@@ -12,7 +12,9 @@ using namespace ppm::test;
 namespace {
 
 /// Depth of a slanted plane; its disparity is linear over the image.
-float slanted(int x, int y) { return 1.0f / (0.4f + 0.002f * static_cast<float>(x) - 0.001f * static_cast<float>(y)); }
+float slanted(int x, int y) {
+  return 1.0f / (0.4f + 0.002f * static_cast<float>(x) - 0.001f * static_cast<float>(y));
+}
 
 DisparityImage image_of(const std::function<float(int, int)>& depth, int smooth = 0) {
   const Frame frame = frame_of(depth);
@@ -24,7 +26,9 @@ DisparityImage image_of(const std::function<float(int, int)>& depth, int smooth 
   return image;
 }
 
-std::vector<std::uint8_t> everywhere(const DisparityImage& image) { return std::vector<std::uint8_t>(image.value.size(), 1); }
+std::vector<std::uint8_t> everywhere(const DisparityImage& image) {
+  return std::vector<std::uint8_t>(image.value.size(), 1);
+}
 
 /// By cell of leaf_min pixels: the size of the leaf that covers it, 0 where there is none. Checks that no two overlap.
 std::vector<int> sizes_by_cell(const DisparityImage& image, const std::vector<Leaf>& leaves, int unit, int& cols) {
@@ -59,7 +63,8 @@ TEST_CASE("smoothing by symmetric pairs leaves a slanted plane and a depth jump 
   const auto plane = image_of(slanted, 2), raw = image_of(slanted);
   for (std::size_t p = 0; p < raw.value.size(); ++p) CHECK(plane.value[p] == Approx(raw.value[p]).margin(1e-6));
   const auto step = image_of([](int x, int) { return x < 41 ? 1.0f : 2.0f; }, 2);
-  for (std::size_t p = 0; p < step.value.size(); ++p) CHECK(step.value[p] == Approx(p % 80 < 41 ? 1.0 : 0.5).margin(1e-6));
+  for (std::size_t p = 0; p < step.value.size(); ++p)
+    CHECK(step.value[p] == Approx(p % 80 < 41 ? 1.0 : 0.5).margin(1e-6));
 }
 
 TEST_CASE("smoothing lowers the noise of a plane") {
@@ -80,7 +85,9 @@ TEST_CASE("leaves stay on one side of a depth jump, get small beside it, and dif
     const int x1 = std::min(leaf.x + leaf.size, image.cols - 1), y1 = std::min(leaf.y + leaf.size, image.rows - 1);
     CHECK((leaf.x + leaf.y >= 71 || x1 + y1 < 71));
   }
-  const auto has = [&](int s) { return std::any_of(leaves.begin(), leaves.end(), [s](const Leaf& l) { return l.size == s; }); };
+  const auto has = [&](int s) {
+    return std::any_of(leaves.begin(), leaves.end(), [s](const Leaf& l) { return l.size == s; });
+  };
   CHECK((has(2) && has(4) && has(8)));
   for (std::size_t c = 0; c < size.size(); ++c)
     for (std::size_t other : {c + 1, c + static_cast<std::size_t>(cols)}) {

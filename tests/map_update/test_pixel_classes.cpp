@@ -11,7 +11,8 @@ using namespace ppm::test;
 
 namespace {
 
-std::vector<std::uint8_t> classes_of(const std::function<float(int, int)>& measured, const std::function<float(int, int)>& predicted,
+std::vector<std::uint8_t> classes_of(const std::function<float(int, int)>& measured,
+                                     const std::function<float(int, int)>& predicted,
                                      const std::vector<std::uint8_t>& gone = {}) {
   const Frame frame = frame_of(measured);
   const Prediction seen = prediction_of(predicted);
@@ -57,9 +58,9 @@ TEST_CASE("opening removes what is thinner than 2 r + 1 pixels, but for what the
   const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * cols + x); };
   std::vector<std::uint8_t> mask(static_cast<std::size_t>(cols * rows), 0), ignored = mask;
   for (int y = 0; y < rows; ++y) {
-    mask[at(0, y)] = mask[at(1, y)] = 1;                // two columns at the left edge: the rest of them may lie beyond it
-    mask[at(5, y)] = mask[at(6, y)] = 1;                // two columns inside: too thin
-    mask[at(9, y)] = mask[at(10, y)] = 1;               // two columns and an unmeasured one
+    mask[at(0, y)] = mask[at(1, y)] = 1;   // two columns at the left edge: the rest of them may lie beyond it
+    mask[at(5, y)] = mask[at(6, y)] = 1;   // two columns inside: too thin
+    mask[at(9, y)] = mask[at(10, y)] = 1;  // two columns and an unmeasured one
     ignored[at(8, y)] = 1;
   }
   open_mask(cols, rows, 1, ignored, mask);
@@ -89,20 +90,24 @@ TEST_CASE("a triangle is surface where the measurement lies on it") {
 
 TEST_CASE("a triangle through flying pixels is refused, though the measurement lies on it") {
   // Pixels that mix a near and a far surface: a ramp of 1 m over three pixels.
-  const Frame frame = frame_of([](int x, int) { return x < 39 ? 1.0f : x > 42 ? 2.0f : 1.0f + 0.25f * static_cast<float>(x - 38); });
+  const Frame frame = frame_of([](int x, int) {
+    return x < 39 ? 1.0f : x > 42 ? 2.0f : 1.0f + 0.25f * static_cast<float>(x - 38);
+  });
   const Prediction none = prediction_of(nothing);
   UpdateView view;
   view.build(frame, none);
   const std::vector<std::uint8_t> classes(frame.depth.size(), kWanted);
   const std::array<Eigen::Vector2f, 3> pixel{Eigen::Vector2f(38, 20), Eigen::Vector2f(38, 24), Eigen::Vector2f(42, 20)};
-  const std::array<Eigen::Vector3f, 3> corner{view.ray(38, 20) * 1.0f, view.ray(38, 24) * 1.0f, view.ray(42, 20) * 2.0f};
+  const std::array<Eigen::Vector3f, 3> corner{view.ray(38, 20) * 1.0f, view.ray(38, 24) * 1.0f,
+                                              view.ray(42, 20) * 2.0f};
   CHECK_FALSE(is_surface(view, classes, {}, corner, kFacing, pixel));
 }
 
 TEST_CASE("a steep triangle is surface where the surfaces at its corners are as steep, a bridge where they are not") {
   // A floor seen at a cosine of 0.2: y = 0.4 below the camera, about 2 m away.
   const Camera camera = small_camera();
-  const Frame frame = frame_of([&](int, int y) { return y > 31 ? 0.4f / static_cast<float>(camera.ray(0, y).y()) : NAN; });
+  const Frame frame =
+      frame_of([&](int, int y) { return y > 31 ? 0.4f / static_cast<float>(camera.ray(0, y).y()) : NAN; });
   const Prediction none = prediction_of(nothing);
   UpdateView view;
   view.build(frame, none);

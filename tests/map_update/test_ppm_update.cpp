@@ -3,7 +3,6 @@
 
 #include "framework/graph/harness.hpp"
 #include "modules/builtin.hpp"
-
 #include "tests/map_update/box_world.hpp"
 #include "tests/map_update/mapper.hpp"
 
@@ -38,7 +37,8 @@ Agreement agreement(Mapper& mapper, const BoxWorld& scene, const Pose& pose, dou
       errors.push_back(std::abs(range - scene.distance(pose.translation(), ray)));
     }
   std::sort(errors.begin(), errors.end());
-  return {static_cast<double>(errors.size()) / camera.pixels(), errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))]};
+  return {static_cast<double>(errors.size()) / camera.pixels(),
+          errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))]};
 }
 
 }  // namespace
@@ -57,7 +57,9 @@ TEST_CASE("one image of a flat wall gives a few large faces that lie on it") {
 TEST_CASE("views of a room from all sides make one map, of one layer, that agrees with the room") {
   const auto scene = room_with_box();
   Mapper mapper;
-  for (int i = 0; i < 24; ++i) mapper.add(scene.frame(small_camera(), look({0.2, 0, 0.2}, 0.05 * i - 0.6, 0.1), kSigma, static_cast<std::uint32_t>(i), true));
+  for (int i = 0; i < 24; ++i)
+    mapper.add(scene.frame(small_camera(), look({0.2, 0, 0.2}, 0.05 * i - 0.6, 0.1), kSigma,
+                           static_cast<std::uint32_t>(i), true));
   CHECK(mapper.second_layers(small_camera(), look({0.2, 0, 0.2}, 0.1, 0.1)) < 0.002);
   const auto a = agreement(mapper, scene, look({0.22, 0.02, 0.2}, 0.1, 0.12), 0.95);
   CHECK(a.coverage > 0.93);
@@ -110,13 +112,15 @@ TEST_CASE("invariants hold after every frame of a random path through a cluttere
   Rng rng(5, 0, 0, purpose_key("path"));
   for (int b = 0; b < 6; ++b) {
     const Eigen::Vector3d low(3 * rng.uniform() - 1.5, 2 * rng.uniform() - 1, 1 + 1.5 * rng.uniform());
-    scene.boxes.emplace_back(low, low + Eigen::Vector3d(0.1 + 0.4 * rng.uniform(), 0.1 + 0.4 * rng.uniform(), 0.1 + 0.4 * rng.uniform()));
+    scene.boxes.emplace_back(
+        low, low + Eigen::Vector3d(0.1 + 0.4 * rng.uniform(), 0.1 + 0.4 * rng.uniform(), 0.1 + 0.4 * rng.uniform()));
   }
   PpmSettings small_cells;
   small_cells.cell_size_m = 0.4;  // many chunk borders
   Mapper mapper({}, small_cells);
   for (std::uint32_t i = 0; i < 25; ++i) {
-    const Pose pose = look({0.6 * rng.uniform() - 0.3, 0.4 * rng.uniform() - 0.2, 0.5 * rng.uniform() - 0.5}, rng.uniform() - 0.5, 0.6 * rng.uniform() - 0.3);
+    const Pose pose = look({0.6 * rng.uniform() - 0.3, 0.4 * rng.uniform() - 0.2, 0.5 * rng.uniform() - 0.5},
+                           rng.uniform() - 0.5, 0.6 * rng.uniform() - 0.3);
     mapper.add(scene.frame(small_camera(), pose, kSigma, i, true));  // checks the map
   }
   CHECK(mapper.map().stats().chunks > 30);

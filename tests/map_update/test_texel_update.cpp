@@ -14,9 +14,11 @@ constexpr float kPrior = 0.0025f;
 
 /// One large face across the optical axis at z = 2, seen head on, 8 divisions.
 struct Wall {
-  std::array<Eigen::Vector3f, 3> corner{Eigen::Vector3f(-0.5f, -0.4f, 2), Eigen::Vector3f(-0.5f, 0.5f, 2), Eigen::Vector3f(0.6f, -0.4f, 2)};
+  std::array<Eigen::Vector3f, 3> corner{Eigen::Vector3f(-0.5f, -0.4f, 2), Eigen::Vector3f(-0.5f, 0.5f, 2),
+                                        Eigen::Vector3f(0.6f, -0.4f, 2)};
   std::uint32_t divisions = 8;
-  std::vector<float> mean = std::vector<float>(texel_count(8), 0.0f), variance = std::vector<float>(texel_count(8), kPrior);
+  std::vector<float> mean = std::vector<float>(texel_count(8), 0.0f),
+                     variance = std::vector<float>(texel_count(8), kPrior);
 
   void gather(const std::function<float(int, int)>& depth) {
     const Frame frame = frame_of(depth);
@@ -98,7 +100,8 @@ TEST_CASE("scatter: each own hit updates the texel nearest to it, like the close
   // One face across the view at z = 2; the prediction says that pixel (40, 30) hit it at its corner.
   PpmEdit make(std::make_shared<PpmMap>(PpmSettings{}));
   const Wall wall;
-  const auto a = make.add_vertex(wall.corner[0]), b = make.add_vertex(wall.corner[1]), c = make.add_vertex(wall.corner[2]);
+  const auto a = make.add_vertex(wall.corner[0]), b = make.add_vertex(wall.corner[1]),
+             c = make.add_vertex(wall.corner[2]);
   add_flat_face(make, {a, b, c}, 4, 0, kPrior);
   PpmEdit edit(make.commit());
   const Frame frame = frame_of([](int, int) { return 1.99f; });

@@ -14,7 +14,8 @@ std::vector<GridPoint> random_points(std::uint32_t seed, int n, int extent) {
   std::set<std::pair<int, int>> taken;
   std::vector<GridPoint> points;
   while (static_cast<int>(points.size()) < n) {
-    const auto x = static_cast<int>(rng.below(static_cast<std::uint32_t>(extent))), y = static_cast<int>(rng.below(static_cast<std::uint32_t>(extent)));
+    const auto x = static_cast<int>(rng.below(static_cast<std::uint32_t>(extent))),
+               y = static_cast<int>(rng.below(static_cast<std::uint32_t>(extent)));
     if (taken.insert({x, y}).second) points.push_back({x, y});
   }
   return points;
@@ -22,12 +23,15 @@ std::vector<GridPoint> random_points(std::uint32_t seed, int n, int extent) {
 
 bool inside_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
   const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
-  return (ax * ax + ay * ay) * (bx * cy - cx * by) - (bx * bx + by * by) * (ax * cy - cx * ay) + (cx * cx + cy * cy) * (ax * by - bx * ay) > 0.5;
+  return (ax * ax + ay * ay) * (bx * cy - cx * by) - (bx * bx + by * by) * (ax * cy - cx * ay) +
+             (cx * cx + cy * cy) * (ax * by - bx * ay) >
+         0.5;
 }
 
 /// Twice the area of the convex hull.
 std::int64_t hull_area(std::vector<GridPoint> p) {
-  std::sort(p.begin(), p.end(), [](const GridPoint& a, const GridPoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::sort(p.begin(), p.end(),
+            [](const GridPoint& a, const GridPoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   std::vector<GridPoint> hull;
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t start = hull.size();
@@ -66,12 +70,14 @@ bool has_edge(const std::vector<PlaneTriangle>& triangles, std::uint32_t a, std:
 
 TEST_CASE("no point lies inside the circle of a Delaunay triangle") {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    const auto points = random_points(seed, 60, seed % 2 ? 100000 : 12);  // the small extent is full of cocircular points
+    const auto points =
+        random_points(seed, 60, seed % 2 ? 100000 : 12);  // the small extent is full of cocircular points
     const auto triangles = delaunay(points);
     check_sound(points, triangles);
     for (const auto& t : triangles)
       for (std::uint32_t p = 0; p < points.size(); ++p)
-        if (p != t[0] && p != t[1] && p != t[2]) CHECK_FALSE(inside_circle(points[t[0]], points[t[1]], points[t[2]], points[p]));
+        if (p != t[0] && p != t[1] && p != t[2])
+          CHECK_FALSE(inside_circle(points[t[0]], points[t[1]], points[t[2]], points[p]));
   }
 }
 
@@ -102,6 +108,7 @@ TEST_CASE("an edge across a kept one, through a point, or to a double is refused
   const std::vector<GridPoint> points{{0, 0}, {100, 0}, {100, 100}, {0, 100}, {50, 50}, {100, 100}, {40, 130}};
   Triangulation plane(points);
   CHECK_FALSE(plane.keep_edge(0, 2));  // through the point in the middle
-  CHECK((plane.keep_edge(0, 4) && plane.keep_edge(4, 2)) != plane.keep_edge(4, 5));  // one of the doubles is in, the other is not
+  CHECK((plane.keep_edge(0, 4) && plane.keep_edge(4, 2)) !=
+        plane.keep_edge(4, 5));           // one of the doubles is in, the other is not
   CHECK(plane.keep_edge(1, 6) == false);  // crosses (4, 2)
 }

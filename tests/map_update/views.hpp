@@ -18,7 +18,8 @@ inline Frame frame_of(const std::function<float(int, int)>& depth, float sigma =
   return f;
 }
 
-/// A prediction at the identity: face 0 of chunk 0, a plane across the optical axis at the depth given for each pixel; NaN = a miss.
+/// A prediction at the identity: face 0 of chunk 0, a plane across the optical axis at the depth given for each pixel;
+/// NaN = a miss.
 inline Prediction prediction_of(const std::function<float(int, int)>& depth, float variance = 0) {
   Prediction p;
   p.reset(small_camera(), 1, Pose::Identity());

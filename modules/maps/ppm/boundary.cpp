@@ -33,7 +33,8 @@ std::uint32_t Boundary::number_of(const Geometry& geometry, std::uint32_t local,
 
 void Boundary::read_open_edges(const Geometry& geometry, const UpdateView& view) {
   for (const auto& [from, to] : geometry.open_edge)
-    link(number_of(geometry, geometry.find_vertex(from), view), number_of(geometry, geometry.find_vertex(to), view), Kind::open);
+    link(number_of(geometry, geometry.find_vertex(from), view), number_of(geometry, geometry.find_vertex(to), view),
+         Kind::open);
 }
 
 void Boundary::pair_chunk_borders() {
@@ -98,7 +99,8 @@ void Boundary::add(const std::array<std::uint32_t, 3>& face) {
   }
 }
 
-std::uint32_t Boundary::add_vertex(const UpdateView& view, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
+std::uint32_t Boundary::add_vertex(const UpdateView& view, const Eigen::Vector3f& point,
+                                   const Eigen::Vector3f& normal) {
   vertex.push_back({RimVertex::kNew, view.absolute(point), point, normal});
   first_.push_back(kNone);
   return static_cast<std::uint32_t>(vertex.size() - 1);
@@ -129,6 +131,8 @@ void Boundary::unlink(std::uint32_t a, std::uint32_t b, Kind kind) {
     }
 }
 
-void Boundary::share(std::uint32_t a, std::uint32_t b) { link(std::min(a, b), std::max(a, b), Kind::shared); }
+void Boundary::share(std::uint32_t a, std::uint32_t b) {
+  link(std::min(a, b), std::max(a, b), Kind::shared);
+}
 
 }  // namespace ppm

@@ -18,15 +18,16 @@ struct FaceRef {
 /// A vertex that new faces may use: one on the boundary of the map, or a new one.
 struct RimVertex {
   static constexpr std::uint32_t kNew = 0xffffffffu;
-  std::uint32_t id = kNew;  ///< the map's; kNew until the edit session gives it one
-  Eigen::Vector3f position; ///< m, map frame
-  Eigen::Vector3f point;    ///< the same relative to the view's centre
-  Eigen::Vector3f normal;   ///< unit
+  std::uint32_t id = kNew;   ///< the map's; kNew until the edit session gives it one
+  Eigen::Vector3f position;  ///< m, map frame
+  Eigen::Vector3f point;     ///< the same relative to the view's centre
+  Eigen::Vector3f normal;    ///< unit
 };
 
-/// The boundary of the mesh in a view, over all chunks: the directed edges of faces that have no partner on the other side. It is kept up to
-/// date while faces are taken away and put on, and refuses faces that would give an edge three faces or two wound alike.
-/// Vertices are numbered within the boundary. Complete for edges whose both ends are in the image.
+/// The boundary of the mesh in a view, over all chunks: the directed edges of faces that have no partner on the other
+/// side. It is kept up to date while faces are taken away and put on, and refuses faces that would give an edge three
+/// faces or two wound alike. Vertices are numbered within the boundary. Complete for edges whose both ends are in the
+/// image.
 class Boundary {
  public:
   /// Reads the chunks in view; faces of `removed` (ascending) count as taken away already.
@@ -49,7 +50,10 @@ class Boundary {
   void open_from(std::uint32_t a, std::vector<std::uint32_t>& ends) const;
 
  private:
-  enum class Kind : std::uint8_t { open, shared };  // shared: the edge has both its faces; kept once, from the lower number
+  enum class Kind : std::uint8_t {
+    open,
+    shared
+  };  // shared: the edge has both its faces; kept once, from the lower number
   struct Link {
     std::uint32_t to, next;
     Kind kind;
@@ -62,7 +66,9 @@ class Boundary {
   void take_away(const Geometry& geometry, std::uint32_t face, const UpdateView& view);
   void read_shared_edges(const Geometry& geometry, std::uint32_t chunk, const std::vector<FaceRef>& removed);
   std::uint32_t find(std::uint32_t a, std::uint32_t b, Kind kind) const;
-  bool is_shared(std::uint32_t a, std::uint32_t b) const { return find(std::min(a, b), std::max(a, b), Kind::shared) != kNone; }
+  bool is_shared(std::uint32_t a, std::uint32_t b) const {
+    return find(std::min(a, b), std::max(a, b), Kind::shared) != kNone;
+  }
   void link(std::uint32_t a, std::uint32_t b, Kind kind);
   void unlink(std::uint32_t a, std::uint32_t b, Kind kind);
   void share(std::uint32_t a, std::uint32_t b);
@@ -70,7 +76,7 @@ class Boundary {
   std::vector<std::uint32_t> number_of_id_;  // by the map's vertex id; kNone = not in the boundary
   std::vector<std::uint32_t> first_;         // by vertex: its first link
   std::vector<Link> links_;
-  std::vector<std::uint32_t> local_;         // scratch: numbers of a chunk's vertices
+  std::vector<std::uint32_t> local_;  // scratch: numbers of a chunk's vertices
 };
 
 }  // namespace ppm

@@ -18,10 +18,10 @@ inline std::int64_t twice_area(const GridPoint& a, const GridPoint& b, const Gri
   return static_cast<std::int64_t>(b.x - a.x) * (c.y - a.y) - static_cast<std::int64_t>(c.x - a.x) * (b.y - a.y);
 }
 
-/// Delaunay triangulation: indices of triangles with positive area. Of several points at one place all but one are left out.
-/// Where more than three points lie on one empty circle (a grid), any of the triangulations is given, always the same for the
-/// same points.
-/// Source: Boost.Polygon's Voronoi diagram (Fortune's sweep line with exact predicates), of which this is the dual.
+/// Delaunay triangulation: indices of triangles with positive area. Of several points at one place all but one are left
+/// out. Where more than three points lie on one empty circle (a grid), any of the triangulations is given, always the
+/// same for the same points. Source: Boost.Polygon's Voronoi diagram (Fortune's sweep line with exact predicates), of
+/// which this is the dual.
 std::vector<PlaneTriangle> delaunay(const std::vector<GridPoint>& points);
 
 }  // namespace ppm

@@ -58,13 +58,18 @@ std::optional<Leaf> fit(const DisparityImage& image, int x, int y, int size, con
 class Quadtree {
  public:
   Quadtree(const DisparityImage& image, const std::vector<std::uint8_t>& wanted, const QuadtreeSettings& settings)
-      : image_(image), wanted_(wanted), settings_(settings), unit_(settings.leaf_min),
-        cols_((image.cols - 2) / unit_ + 1), rows_((image.rows - 2) / unit_ + 1),
+      : image_(image),
+        wanted_(wanted),
+        settings_(settings),
+        unit_(settings.leaf_min),
+        cols_((image.cols - 2) / unit_ + 1),
+        rows_((image.rows - 2) / unit_ + 1),
         leaf_of_(static_cast<std::size_t>(cols_ * rows_), kNone) {}
 
   std::vector<Leaf> run() {
-    for (int y = 0; y < rows_ * unit_; y += settings_.leaf_max)
-      for (int x = 0; x < cols_ * unit_; x += settings_.leaf_max) grow(x, y, settings_.leaf_max);
+    const int largest = std::max(settings_.leaf_max, unit_);
+    for (int y = 0; y < rows_ * unit_; y += largest)
+      for (int x = 0; x < cols_ * unit_; x += largest) grow(x, y, largest);
     balance();
     return in_order();
   }
@@ -154,7 +159,8 @@ class Quadtree {
   std::vector<Leaf> leaves_;
 };
 
-constexpr float kSameSurface = 0.03f;  // planes that differ by more at a corner without a measurement belong to two surfaces
+constexpr float kSameSurface =
+    0.03f;  // planes that differ by more at a corner without a measurement belong to two surfaces
 
 /// Planes that meet at a corner.
 struct Meeting {
@@ -164,7 +170,8 @@ struct Meeting {
 
 }  // namespace
 
-void DisparityImage::build(const UpdateView& view, const std::vector<std::uint8_t>& wanted, int radius, float pair_sigmas) {
+void DisparityImage::build(const UpdateView& view, const std::vector<std::uint8_t>& wanted, int radius,
+                           float pair_sigmas) {
   cols = view.cols();
   rows = view.rows();
   value.resize(view.depth.size());
@@ -177,10 +184,12 @@ void DisparityImage::build(const UpdateView& view, const std::vector<std::uint8_
   const DisparityImage raw = *this;
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < cols; ++x)
-      if (wanted[at(x, y)] && raw.value[at(x, y)] == raw.value[at(x, y)]) value[at(x, y)] = smoothed(raw, x, y, radius, pair_sigmas);
+      if (wanted[at(x, y)] && raw.value[at(x, y)] == raw.value[at(x, y)])
+        value[at(x, y)] = smoothed(raw, x, y, radius, pair_sigmas);
 }
 
-std::vector<Leaf> disparity_leaves(const DisparityImage& image, const std::vector<std::uint8_t>& wanted, const QuadtreeSettings& settings) {
+std::vector<Leaf> disparity_leaves(const DisparityImage& image, const std::vector<std::uint8_t>& wanted,
+                                   const QuadtreeSettings& settings) {
   return Quadtree(image, wanted, settings).run();
 }
 
@@ -188,7 +197,8 @@ std::vector<LeafCorner> leaf_corners(const DisparityImage& image, const std::vec
   std::vector<Meeting> meetings(image.value.size());
   for (const Leaf& leaf : leaves)
     for (int k = 0; k < 4; ++k) {
-      const int x = std::min(leaf.x + (k & 1) * leaf.size, image.cols - 1), y = std::min(leaf.y + (k >> 1) * leaf.size, image.rows - 1);
+      const int x = std::min(leaf.x + (k & 1) * leaf.size, image.cols - 1),
+                y = std::min(leaf.y + (k >> 1) * leaf.size, image.rows - 1);
       const auto p = image.at(x, y);
       const float d = leaf.disparity(x, y);
       if (d <= 0 || std::abs(d - image.value[p]) > fit_sigmas * image.sigma[p]) continue;
@@ -209,7 +219,8 @@ std::vector<LeafCorner> leaf_corners(const DisparityImage& image, const std::vec
       const auto n = static_cast<float>(m.leaves);
       const float mean = m.sum / n;
       const bool measured = image.value[image.at(x, y)] == image.value[image.at(x, y)];
-      if (measured || m.most - m.least <= kSameSurface * mean) corners.push_back({x, y, mean, m.a / n, m.b / n, m.spacing});
+      if (measured || m.most - m.least <= kSameSurface * mean)
+        corners.push_back({x, y, mean, m.a / n, m.b / n, m.spacing});
     }
   return corners;
 }

@@ -4,7 +4,8 @@
 
 namespace ppm {
 
-std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes) {
+std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view,
+                                   const std::vector<std::uint8_t>& classes) {
   struct Votes {
     std::uint16_t seen = 0, hits = 0, through = 0;
   };
@@ -33,7 +34,8 @@ std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const Vot
     FaceEvidence& e = edit.texels(t.face.chunk).evidence[t.face.face];
     e.hits = static_cast<std::uint16_t>(std::min(e.hits + t.hits, settings.hits_most));
     e.through = static_cast<std::uint16_t>(std::min(e.through + t.through, 65535));
-    if (static_cast<float>(e.through) > settings.through_per_hit * static_cast<float>(e.hits) + static_cast<float>(settings.through_free))
+    if (static_cast<float>(e.through) >
+        settings.through_per_hit * static_cast<float>(e.hits) + static_cast<float>(settings.through_free))
       lost.push_back(t.face);
   }
   return lost;

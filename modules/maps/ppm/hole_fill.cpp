@@ -95,7 +95,8 @@ class HoleFiller {
     const auto p = view_.at(x, y);
     if (!view_.measured(p)) return true;
     const float distance = normal.dot(view_.point[p] - centroid);  // negative behind
-    return distance >= -settings_.gate_sigmas * settings_.gate.spread(view_.sigma[p], UpdateView::facing(normal, centroid), 0);
+    return distance >=
+           -settings_.gate_sigmas * settings_.gate.spread(view_.sigma[p], UpdateView::facing(normal, centroid), 0);
   }
 
   void add(const std::vector<RimFace>& patch) {
@@ -115,7 +116,8 @@ class HoleFiller {
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> small_loops(const Boundary& boundary, const std::vector<std::uint8_t>& usable, int edges_most) {
+std::vector<std::vector<std::uint32_t>> small_loops(const Boundary& boundary, const std::vector<std::uint8_t>& usable,
+                                                    int edges_most) {
   std::vector<Loop> loops;
   std::vector<int> place(usable.size(), -1);  // in the path, or -1
   std::vector<std::uint32_t> ends;

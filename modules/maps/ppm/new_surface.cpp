@@ -11,14 +11,14 @@ namespace {
 /// A vertex of the triangulation.
 struct Node {
   Eigen::Vector2f pixel;
-  Eigen::Vector3f point, normal;              // relative to the view's centre
-  std::uint32_t number = RimVertex::kNew;     // in the boundary; kNew for a leaf corner that no face uses yet
+  Eigen::Vector3f point, normal;           // relative to the view's centre
+  std::uint32_t number = RimVertex::kNew;  // in the boundary; kNew for a leaf corner that no face uses yet
 };
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<std::uint8_t>& wanted,
-               const NewSurfaceSettings& settings, Boundary& boundary)
+  SurfaceMaker(const UpdateView& view, const std::vector<std::uint8_t>& classes,
+               const std::vector<std::uint8_t>& wanted, const NewSurfaceSettings& settings, Boundary& boundary)
       : view_(view), classes_(classes), wanted_(wanted), settings_(settings), boundary_(boundary) {}
 
   void run(std::vector<RimFace>& faces) {
@@ -56,7 +56,9 @@ class SurfaceMaker {
       const Eigen::Vector3f image = view_.project(rim.point);
       if (!(image.z() > 0)) continue;
       const Eigen::Vector2f pixel = image.head<2>();
-      if (!(pixel.x() > -0.5f && pixel.y() > -0.5f && pixel.x() < static_cast<float>(view_.cols()) - 0.5f && pixel.y() < static_cast<float>(view_.rows()) - 0.5f)) continue;
+      if (!(pixel.x() > -0.5f && pixel.y() > -0.5f && pixel.x() < static_cast<float>(view_.cols()) - 0.5f &&
+            pixel.y() < static_cast<float>(view_.rows()) - 0.5f))
+        continue;
       const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
       if (!near_[view_.at(x, y)] || !is_seen(rim, x, y)) continue;
       node_of_[v] = static_cast<int>(nodes_.size());
@@ -75,19 +77,25 @@ class SurfaceMaker {
         if (!view_.inside(u, v) || !view_.measured(view_.at(u, v))) continue;
         const auto p = view_.at(u, v);
         const float distance = (view_.point[p].norm() - range) * std::max(cosine, settings_.triangle.gate.least_cosine);
-        if (std::abs(distance) <= settings_.triangle.gate_sigmas * settings_.triangle.gate.spread(view_.sigma[p], cosine, 0)) return true;
+        if (std::abs(distance) <=
+            settings_.triangle.gate_sigmas * settings_.triangle.gate.spread(view_.sigma[p], cosine, 0))
+          return true;
       }
     return false;
   }
 
   void drop_corners_around(const Eigen::Vector2f& pixel, int x, int y) {
-    const int reach = static_cast<int>(std::ceil(std::max(settings_.gap_vertex_px, settings_.gap_vertex_leaf * static_cast<float>(settings_.leaves.leaf_max))));
+    const int reach = static_cast<int>(std::ceil(
+        std::max(settings_.gap_vertex_px, settings_.gap_vertex_leaf * static_cast<float>(settings_.leaves.leaf_max))));
     for (int v = std::max(0, y - reach); v <= std::min(view_.rows() - 1, y + reach); ++v)
       for (int u = std::max(0, x - reach); u <= std::min(view_.cols() - 1, x + reach); ++u) {
         int& corner = kept_[view_.at(u, v)];
         if (corner == kNone) continue;
-        const float gap = std::max(settings_.gap_vertex_px, settings_.gap_vertex_leaf * static_cast<float>(corners_[static_cast<std::size_t>(corner)].spacing));
-        if ((Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v)) - pixel).squaredNorm() < gap * gap) corner = kNone;
+        const float gap = std::max(
+            settings_.gap_vertex_px,
+            settings_.gap_vertex_leaf * static_cast<float>(corners_[static_cast<std::size_t>(corner)].spacing));
+        if ((Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v)) - pixel).squaredNorm() < gap * gap)
+          corner = kNone;
       }
   }
 
@@ -129,7 +137,8 @@ class SurfaceMaker {
 
   /// The normal of the plane of space whose disparity has the corner's value and gradient.
   Eigen::Vector3f normal_of(const LeafCorner& c) const {
-    const float at_centre = c.disparity - c.a * (static_cast<float>(c.x) - view_.cx) - c.b * (static_cast<float>(c.y) - view_.cy);
+    const float at_centre =
+        c.disparity - c.a * (static_cast<float>(c.x) - view_.cx) - c.b * (static_cast<float>(c.y) - view_.cy);
     return -(view_.axes * Eigen::Vector3f(c.a * view_.fx, c.b * view_.fy, at_centre)).normalized();
   }
 
@@ -148,8 +157,8 @@ class SurfaceMaker {
 
   void consider(const std::array<std::uint32_t, 3>& t, std::vector<RimFace>& faces) {
     Node* const n[3] = {&nodes_[t[0]], &nodes_[t[1]], &nodes_[t[2]]};
-    if (!is_surface(view_, classes_, settings_.triangle, {n[0]->point, n[1]->point, n[2]->point}, {n[0]->normal, n[1]->normal, n[2]->normal},
-                    {n[0]->pixel, n[1]->pixel, n[2]->pixel}))
+    if (!is_surface(view_, classes_, settings_.triangle, {n[0]->point, n[1]->point, n[2]->point},
+                    {n[0]->normal, n[1]->normal, n[2]->normal}, {n[0]->pixel, n[1]->pixel, n[2]->pixel}))
       return;
     RimFace face;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -165,18 +174,19 @@ class SurfaceMaker {
   const std::vector<std::uint8_t>&classes_, &wanted_;
   const NewSurfaceSettings& settings_;
   Boundary& boundary_;
-  std::vector<std::uint8_t> near_;    // [px] within a leaf of a wanted pixel
+  std::vector<std::uint8_t> near_;  // [px] within a leaf of a wanted pixel
   std::vector<LeafCorner> corners_;
-  std::vector<int> kept_;             // [px] the corner there, or kNone
-  std::vector<int> node_of_;          // by boundary vertex
+  std::vector<int> kept_;     // [px] the corner there, or kNone
+  std::vector<int> node_of_;  // by boundary vertex
   std::vector<Node> nodes_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> rim_edges_;  // open edges between nodes
 };
 
 }  // namespace
 
-void make_surface(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<std::uint8_t>& wanted,
-                  const NewSurfaceSettings& settings, Boundary& boundary, std::vector<RimFace>& faces) {
+void make_surface(const UpdateView& view, const std::vector<std::uint8_t>& classes,
+                  const std::vector<std::uint8_t>& wanted, const NewSurfaceSettings& settings, Boundary& boundary,
+                  std::vector<RimFace>& faces) {
   if (std::none_of(wanted.begin(), wanted.end(), [](auto w) { return w != 0; })) return;
   SurfaceMaker(view, classes, wanted, settings, boundary).run(faces);
 }

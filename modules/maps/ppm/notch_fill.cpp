@@ -9,8 +9,8 @@ namespace {
 
 class NotchFiller {
  public:
-  NotchFiller(const UpdateView& view, const std::vector<std::uint8_t>& classes, const NotchSettings& settings, Boundary& boundary,
-              std::vector<RimFace>& faces)
+  NotchFiller(const UpdateView& view, const std::vector<std::uint8_t>& classes, const NotchSettings& settings,
+              Boundary& boundary, std::vector<RimFace>& faces)
       : view_(view), classes_(classes), settings_(settings), boundary_(boundary), faces_(faces) {}
 
   void run() {
@@ -21,7 +21,8 @@ class NotchFiller {
     for (std::uint32_t v = 0; v < n; ++v) {
       const Eigen::Vector3f image = view_.project(boundary_.vertex[v].point);
       pixel_[v] = image.head<2>();
-      usable_[v] = image.z() > 0 && image.x() >= 0 && image.y() >= 0 && image.x() <= static_cast<float>(view_.cols() - 1) &&
+      usable_[v] = image.z() > 0 && image.x() >= 0 && image.y() >= 0 &&
+                   image.x() <= static_cast<float>(view_.cols() - 1) &&
                    image.y() <= static_cast<float>(view_.rows() - 1);
     }
     std::vector<std::uint32_t> ends;
@@ -42,7 +43,8 @@ class NotchFiller {
   static constexpr int kCell = 8;  // px
 
   std::vector<std::uint32_t>& bucket(std::uint32_t v) {
-    if (buckets_.empty()) buckets_.resize(static_cast<std::size_t>((view_.cols() / kCell + 1) * (view_.rows() / kCell + 1)));
+    if (buckets_.empty())
+      buckets_.resize(static_cast<std::size_t>((view_.cols() / kCell + 1) * (view_.rows() / kCell + 1)));
     return buckets_[cell(static_cast<int>(pixel_[v].x()) / kCell, static_cast<int>(pixel_[v].y()) / kCell)];
   }
   std::size_t cell(int x, int y) const { return static_cast<std::size_t>(y * (view_.cols() / kCell + 1) + x); }
@@ -109,7 +111,8 @@ class NotchFiller {
   const NotchSettings& settings_;
   Boundary& boundary_;
   std::vector<RimFace>& faces_;
-  std::vector<std::vector<std::uint32_t>> into_, buckets_;  // starts of open edges into a vertex; vertices by cell of the image
+  std::vector<std::vector<std::uint32_t>> into_,
+      buckets_;  // starts of open edges into a vertex; vertices by cell of the image
   std::vector<Eigen::Vector2f> pixel_;
   std::vector<std::uint8_t> usable_;
   std::deque<std::uint32_t> todo_;
@@ -118,8 +121,8 @@ class NotchFiller {
 
 }  // namespace
 
-void fill_notches(const UpdateView& view, const std::vector<std::uint8_t>& classes, const NotchSettings& settings, Boundary& boundary,
-                  std::vector<RimFace>& faces) {
+void fill_notches(const UpdateView& view, const std::vector<std::uint8_t>& classes, const NotchSettings& settings,
+                  Boundary& boundary, std::vector<RimFace>& faces) {
   if (settings.angle_most > 0) NotchFiller(view, classes, settings, boundary, faces).run();
 }
 

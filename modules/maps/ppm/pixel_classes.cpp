@@ -3,8 +3,8 @@
 namespace ppm {
 namespace {
 
-bool fits_neighbour(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas, const std::vector<std::uint8_t>& gone, int x,
-                    int y) {
+bool fits_neighbour(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas,
+                    const std::vector<std::uint8_t>& gone, int x, int y) {
   const auto p = view.at(x, y);
   for (int v = std::max(0, y - 1); v <= std::min(view.rows() - 1, y + 1); ++v)
     for (int u = std::max(0, x - 1); u <= std::min(view.cols() - 1, x + 1); ++u) {
@@ -29,8 +29,10 @@ void slide(const std::uint8_t* in, std::uint8_t* out, int n, int step, int radiu
 
 void slide_both(int cols, int rows, int radius, bool all, std::vector<std::uint8_t>& mask) {
   std::vector<std::uint8_t> half(mask.size());
-  for (int y = 0; y < rows; ++y) slide(&mask[static_cast<std::size_t>(y * cols)], &half[static_cast<std::size_t>(y * cols)], cols, 1, radius, all);
-  for (int x = 0; x < cols; ++x) slide(&half[static_cast<std::size_t>(x)], &mask[static_cast<std::size_t>(x)], rows, cols, radius, all);
+  for (int y = 0; y < rows; ++y)
+    slide(&mask[static_cast<std::size_t>(y * cols)], &half[static_cast<std::size_t>(y * cols)], cols, 1, radius, all);
+  for (int x = 0; x < cols; ++x)
+    slide(&half[static_cast<std::size_t>(x)], &mask[static_cast<std::size_t>(x)], rows, cols, radius, all);
 }
 
 }  // namespace
@@ -41,8 +43,8 @@ float surface_distance(const UpdateView& view, const SurfaceGate& gate, std::siz
   return (along - view.offset[q]) / gate.spread(view.sigma[p], cosine, view.prediction->variance[q]);
 }
 
-void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas, const std::vector<std::uint8_t>& gone,
-                     std::vector<std::uint8_t>& classes) {
+void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas,
+                     const std::vector<std::uint8_t>& gone, std::vector<std::uint8_t>& classes) {
   classes.assign(view.depth.size(), 0);
   for (int y = 0; y < view.rows(); ++y)
     for (int x = 0; x < view.cols(); ++x) {
@@ -59,7 +61,8 @@ void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate
     }
 }
 
-void open_mask(int cols, int rows, int radius, const std::vector<std::uint8_t>& ignored, std::vector<std::uint8_t>& mask) {
+void open_mask(int cols, int rows, int radius, const std::vector<std::uint8_t>& ignored,
+               std::vector<std::uint8_t>& mask) {
   std::vector<std::uint8_t> core = mask;
   for (std::size_t p = 0; p < core.size(); ++p) core[p] |= ignored[p];
   slide_both(cols, rows, radius, true, core);
@@ -67,6 +70,8 @@ void open_mask(int cols, int rows, int radius, const std::vector<std::uint8_t>& 
   for (std::size_t p = 0; p < core.size(); ++p) mask[p] &= core[p];
 }
 
-void dilate_mask(int cols, int rows, int radius, std::vector<std::uint8_t>& mask) { slide_both(cols, rows, radius, false, mask); }
+void dilate_mask(int cols, int rows, int radius, std::vector<std::uint8_t>& mask) {
+  slide_both(cols, rows, radius, false, mask);
+}
 
 }  // namespace ppm

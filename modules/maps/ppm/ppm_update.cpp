@@ -46,7 +46,8 @@ class FaceWriter {
 };
 
 /// Pixels where surface may be made in this frame.
-std::vector<std::uint8_t> wanted_pixels(const UpdateView& view, const std::vector<std::uint8_t>& classes, int open_radius) {
+std::vector<std::uint8_t> wanted_pixels(const UpdateView& view, const std::vector<std::uint8_t>& classes,
+                                        int open_radius) {
   std::vector<std::uint8_t> wanted(classes.size()), unknown(classes.size());
   for (std::size_t p = 0; p < classes.size(); ++p) {
     wanted[p] = (classes[p] & kWanted) != 0;
@@ -63,8 +64,9 @@ void UpdateSettings::share() {
   notches.triangle = surface.triangle;
 }
 
-std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame, const Prediction& prediction,
-                                         const UpdateSettings& settings, std::int64_t frame_number, UpdateCounts* counts) {
+std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame,
+                                         const Prediction& prediction, const UpdateSettings& settings,
+                                         std::int64_t frame_number, UpdateCounts* counts) {
   UpdateView view;
   view.build(frame, prediction);
   std::vector<std::uint8_t> classes;
@@ -95,7 +97,9 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   fill_holes(view, settings.holes, boundary, faces);
   FaceWriter writer(view, settings.texels, boundary, edit);
   for (const auto& f : faces) writer.write(f);
-  if (counts) *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made, removed.size()};
+  if (counts)
+    *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made,
+               removed.size()};
   return edit.commit();
 }
 

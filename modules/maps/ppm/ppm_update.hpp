@@ -14,10 +14,10 @@ namespace ppm {
 
 /// How a frame changes a map; see the parameters of map_update.ppm_bayes.
 struct UpdateSettings {
-  SurfaceGate gate;              ///< copied into the parts below by whoever sets it
+  SurfaceGate gate;  ///< copied into the parts below by whoever sets it
   float classify_sigmas = 4;
-  int open_radius = 2;           ///< px, of the opening that leaves thin strips of wanted pixels for later; 0 = none
-  int thin_every = 2;            ///< frames: so often thin strips are let through; 0 = never
+  int open_radius = 2;  ///< px, of the opening that leaves thin strips of wanted pixels for later; 0 = none
+  int thin_every = 2;   ///< frames: so often thin strips are let through; 0 = never
   VoteSettings votes;
   TexelSettings texels;
   NewSurfaceSettings surface;
@@ -33,11 +33,12 @@ struct UpdateCounts {
   std::size_t wanted_pixels = 0, new_faces = 0, filled_faces = 0, removed_faces = 0;
 };
 
-/// The map after one frame: pixels are classified against the prediction, faces voted on and removed, texels updated, new surface
-/// made and stitched on, slits and small holes closed. A pure function of its arguments: the same bytes each time.
-/// map: moved in; where it is the only handle its memory is reused. prediction: of this map at the frame's pose.
-/// frame_number: of the run, from 0.
-std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame, const Prediction& prediction,
-                                         const UpdateSettings& settings, std::int64_t frame_number, UpdateCounts* counts = nullptr);
+/// The map after one frame: pixels are classified against the prediction, faces voted on and removed, texels updated,
+/// new surface made and stitched on, slits and small holes closed. A pure function of its arguments: the same bytes
+/// each time. map: moved in; where it is the only handle its memory is reused. prediction: of this map at the frame's
+/// pose. frame_number: of the run, from 0.
+std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame,
+                                         const Prediction& prediction, const UpdateSettings& settings,
+                                         std::int64_t frame_number, UpdateCounts* counts = nullptr);
 
 }  // namespace ppm

@@ -13,8 +13,10 @@ struct FacePlane {
   float texel_area;  // m^2, that one node stands for
 };
 
-/// The residuals of the four pixels around (x, y), weighted bilinearly; false where less than half of the weight is left.
-bool interpolate(const UpdateView& view, const FacePlane& plane, float x, float y, float mean, float limit, float& offset) {
+/// The residuals of the four pixels around (x, y), weighted bilinearly; false where less than half of the weight is
+/// left.
+bool interpolate(const UpdateView& view, const FacePlane& plane, float x, float y, float mean, float limit,
+                 float& offset) {
   const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, view.cols() - 2);
   const int y0 = std::clamp(static_cast<int>(std::floor(y)), 0, view.rows() - 2);
   const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
@@ -31,8 +33,8 @@ bool interpolate(const UpdateView& view, const FacePlane& plane, float x, float 
   return true;
 }
 
-void gather_node(const UpdateView& view, const TexelSettings& settings, const FacePlane& plane, const Eigen::Vector3f& node,
-                 float& mean, float& variance) {
+void gather_node(const UpdateView& view, const TexelSettings& settings, const FacePlane& plane,
+                 const Eigen::Vector3f& node, float& mean, float& variance) {
   const Eigen::Vector3f image = view.project(node);
   if (!(image.z() > 0) || image.x() < 0 || image.y() < 0 || image.x() > static_cast<float>(view.cols() - 1) ||
       image.y() > static_cast<float>(view.rows() - 1))
@@ -104,9 +106,10 @@ void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& clas
     Texels& texels = edit.texels(c);
     const auto first = geometry.first_texel[f];
     const auto count = texel_count(geometry.divisions[f]);
-    gather_face(view, settings,
-                {view.relative(geometry.position[i]), view.relative(geometry.position[j]), view.relative(geometry.position[k])},
-                geometry.divisions[f], {&texels.mean[first], count}, {&texels.variance[first], count});
+    gather_face(
+        view, settings,
+        {view.relative(geometry.position[i]), view.relative(geometry.position[j]), view.relative(geometry.position[k])},
+        geometry.divisions[f], {&texels.mean[first], count}, {&texels.variance[first], count});
   }
 }
 

@@ -18,31 +18,33 @@ enum class TexelForm {
 struct TexelSettings {
   TexelForm form = TexelForm::gather;
   SurfaceGate gate;
-  float gate_sigmas = 3;     ///< measurements farther from the texel's surface than so many gate spreads are left out
-  float lateral_px = 0.5f;   ///< px, the sensor's uncertainty across the line of sight
+  float gate_sigmas = 3;    ///< measurements farther from the texel's surface than so many gate spreads are left out
+  float lateral_px = 0.5f;  ///< px, the sensor's uncertainty across the line of sight
 };
 
-/// Variance of a measured point along a surface's normal: that of its depth and that of its place in the image, each as far as the
-/// normal shows it. sigma: m, of the depth; cosine: |normal . line of sight|; lateral: m, across the line of sight.
+/// Variance of a measured point along a surface's normal: that of its depth and that of its place in the image, each as
+/// far as the normal shows it. sigma: m, of the depth; cosine: |normal . line of sight|; lateral: m, across the line of
+/// sight.
 float variance_along_normal(float sigma, float cosine, float lateral);
 
-/// Conjugate Gaussian: fuses a measurement (offset, variance) into a texel (mean, variance). Source: paper, section 4.3.
+/// Conjugate Gaussian: fuses a measurement (offset, variance) into a texel (mean, variance). Source: paper,
+/// section 4.3.
 inline void fuse(float& mean, float& variance, float offset, float measured_variance) {
   const float sum = variance + measured_variance;
   mean += variance / sum * (offset - mean);
   variance = variance * measured_variance / sum;
 }
 
-/// The gather form for one face, of the map or new. corner: relative to the view's centre, in winding order; mean, variance
-/// [texel_count(divisions)] are updated. Each node takes the distance of the four measured points around its image from the
-/// face's plane, weighted bilinearly, of those within the gate (so none from beyond a depth jump); nothing where they have less
-/// than half of the weight. Where texels are finer than pixels, one measurement reaches several: its variance grows by
-/// the ratio of areas, so that near and far views mix rightly.
+/// The gather form for one face, of the map or new. corner: relative to the view's centre, in winding order; mean,
+/// variance [texel_count(divisions)] are updated. Each node takes the distance of the four measured points around its
+/// image from the face's plane, weighted bilinearly, of those within the gate (so none from beyond a depth jump);
+/// nothing where they have less than half of the weight. Where texels are finer than pixels, one measurement reaches
+/// several: its variance grows by the ratio of areas, so that near and far views mix rightly.
 void gather_face(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
                  std::uint32_t divisions, std::span<float> mean, std::span<float> variance);
 
-/// Updates the texels of the faces in view. `faces`: those that rays met (see tally_faces), without the removed ones. The scatter
-/// form uses the pixels of class kOwnHit.
+/// Updates the texels of the faces in view. `faces`: those that rays met (see tally_faces), without the removed ones.
+/// The scatter form uses the pixels of class kOwnHit.
 void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<FaceRef>& faces,
                    const TexelSettings& settings, PpmEdit& edit);
 

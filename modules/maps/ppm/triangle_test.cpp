@@ -9,8 +9,8 @@ namespace {
 /// Counts what the samples of a triangle say.
 class Samples {
  public:
-  Samples(const UpdateView& view, const std::vector<std::uint8_t>& classes, const TriangleSettings& settings, const Eigen::Vector3f& normal,
-          float offset, float cosine)
+  Samples(const UpdateView& view, const std::vector<std::uint8_t>& classes, const TriangleSettings& settings,
+          const Eigen::Vector3f& normal, float offset, float cosine)
       : view_(view), classes_(classes), settings_(settings), normal_(normal), offset_(offset), cosine_(cosine) {}
 
   void add(int x, int y) {
@@ -21,7 +21,9 @@ class Samples {
     const float distance = normal_.dot(view_.point[p]) - offset_;
     fit_ += std::abs(distance) <= settings_.gate_sigmas * settings_.gate.spread(view_.sigma[p], cosine_, 0);
   }
-  void add(const Eigen::Vector2f& p) { add(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))); }
+  void add(const Eigen::Vector2f& p) {
+    add(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+  }
 
   bool good() const {
     const auto n = static_cast<float>(count_);
@@ -67,7 +69,8 @@ bool is_surface(const UpdateView& view, const std::vector<std::uint8_t>& classes
   const Eigen::Vector3f centroid = (corner[0] + corner[1] + corner[2]) / 3;
   const float cosine = UpdateView::facing(normal, centroid);
   if (cosine < settings.cosine_least) return false;
-  if (cosine < settings.steep_cosine && normal.dot(normals[0] + normals[1] + normals[2]) < 3 * settings.steep_agree) return false;
+  if (cosine < settings.steep_cosine && normal.dot(normals[0] + normals[1] + normals[2]) < 3 * settings.steep_agree)
+    return false;
   Samples samples(view, classes, settings, normal, normal.dot(centroid), cosine);
   samples.add((pixel[0] + pixel[1] + pixel[2]) / 3);
   for (std::size_t k = 0; k < 3; ++k) samples.add((pixel[k] + pixel[(k + 1) % 3]) / 2);

@@ -6,7 +6,9 @@
 namespace ppm {
 namespace {
 
-std::pair<std::uint32_t, std::uint32_t> ordered(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+std::pair<std::uint32_t, std::uint32_t> ordered(std::uint32_t a, std::uint32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
 
 /// True when d lies inside the circle through a, b, c (positive area). Exact.
 bool in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
@@ -15,7 +17,8 @@ bool in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const
     return std::array<__int128, 3>{x, y, x * x + y * y};
   };
   const auto u = row(a), v = row(b), w = row(c);
-  return u[0] * (v[1] * w[2] - w[1] * v[2]) - u[1] * (v[0] * w[2] - w[0] * v[2]) + u[2] * (v[0] * w[1] - w[0] * v[1]) > 0;
+  return u[0] * (v[1] * w[2] - w[1] * v[2]) - u[1] * (v[0] * w[2] - w[0] * v[2]) + u[2] * (v[0] * w[1] - w[0] * v[1]) >
+         0;
 }
 
 }  // namespace
@@ -63,7 +66,8 @@ bool Triangulation::keep_edge(std::uint32_t a, std::uint32_t b) {
   return true;
 }
 
-/// The edges that the segment from a to b crosses; false where it meets a point or a kept edge, or leaves the triangulation.
+/// The edges that the segment from a to b crosses; false where it meets a point or a kept edge, or leaves the
+/// triangulation.
 bool Triangulation::crossed(std::uint32_t a, std::uint32_t b, std::vector<Edge>& edges) const {
   Edge e{kNone, kNone};
   for (auto t : around_[a])
@@ -78,9 +82,12 @@ bool Triangulation::crossed(std::uint32_t a, std::uint32_t b, std::vector<Edge>&
     if (beyond.triangle == kNone) return false;
     const auto tip = apex(beyond);
     if (tip == b) return true;
-    if (crosses({e.first, tip}, a, b)) e = {e.first, tip};
-    else if (crosses({tip, e.second}, a, b)) e = {tip, e.second};
-    else return false;
+    if (crosses({e.first, tip}, a, b))
+      e = {e.first, tip};
+    else if (crosses({tip, e.second}, a, b))
+      e = {tip, e.second};
+    else
+      return false;
   }
   return false;
 }
@@ -88,7 +95,8 @@ bool Triangulation::crossed(std::uint32_t a, std::uint32_t b, std::vector<Edge>&
 bool Triangulation::crosses(const Edge& e, std::uint32_t a, std::uint32_t b) const {
   if (e.first == a || e.first == b || e.second == a || e.second == b) return false;
   const auto &p = point_[e.first], &q = point_[e.second], &from = point_[a], &to = point_[b];
-  const auto s1 = twice_area(from, to, p), s2 = twice_area(from, to, q), s3 = twice_area(p, q, from), s4 = twice_area(p, q, to);
+  const auto s1 = twice_area(from, to, p), s2 = twice_area(from, to, q), s3 = twice_area(p, q, from),
+             s4 = twice_area(p, q, to);
   return ((s1 > 0 && s2 < 0) || (s1 < 0 && s2 > 0)) && ((s3 > 0 && s4 < 0) || (s3 < 0 && s4 > 0));
 }
 
@@ -97,7 +105,8 @@ bool Triangulation::flip(const Edge& e, Edge& flipped) {
   const Side left = side(e.first, e.second), right = side(e.second, e.first);
   if (left.triangle == kNone || right.triangle == kNone) return false;
   const auto p = apex(left), q = apex(right);
-  if (twice_area(point_[p], point_[q], point_[e.second]) <= 0 || twice_area(point_[q], point_[p], point_[e.first]) <= 0) return false;
+  if (twice_area(point_[p], point_[q], point_[e.second]) <= 0 || twice_area(point_[q], point_[p], point_[e.first]) <= 0)
+    return false;
   for (auto t : {left.triangle, right.triangle})
     for (auto v : triangle_[t]) around_[v].erase(std::find(around_[v].begin(), around_[v].end(), t));
   triangle_[left.triangle] = {p, q, e.second};

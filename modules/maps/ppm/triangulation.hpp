@@ -14,8 +14,8 @@ class Triangulation {
  public:
   explicit Triangulation(std::vector<GridPoint> points);
 
-  /// Makes (a, b) an edge and keeps it. False, and nothing is kept, where a point lies on it, an edge kept before crosses it, or an end
-  /// was left out as a double.
+  /// Makes (a, b) an edge and keeps it. False, and nothing is kept, where a point lies on it, an edge kept before
+  /// crosses it, or an end was left out as a double.
   bool keep_edge(std::uint32_t a, std::uint32_t b);
   /// All triangles, positive area each.
   const std::vector<PlaneTriangle>& triangles() const { return triangle_; }

@@ -8,20 +8,22 @@
 
 namespace ppm {
 
-/// A frame beside what the map predicts for it, pixel by pixel, on the prediction's grid. Points are relative to the camera's
-/// centre with the axes of the map frame, so that floats keep their precision far from the map's origin.
+/// A frame beside what the map predicts for it, pixel by pixel, on the prediction's grid. Points are relative to the
+/// camera's centre with the axes of the map frame, so that floats keep their precision far from the map's origin.
 class UpdateView {
  public:
   static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-  /// Fills the view; keeps capacity. The prediction must be one of this frame's camera (its camera is the frame's decimated by
-  /// prediction.stride) and must outlive the view.
+  /// Fills the view; keeps capacity. The prediction must be one of this frame's camera (its camera is the frame's
+  /// decimated by prediction.stride) and must outlive the view.
   void build(const Frame& frame, const Prediction& prediction);
 
   int cols() const { return camera.cols; }
   int rows() const { return camera.rows; }
   bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < camera.cols && y < camera.rows; }
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.cols) + static_cast<std::size_t>(x); }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.cols) + static_cast<std::size_t>(x);
+  }
   bool measured(std::size_t p) const { return depth[p] == depth[p]; }
 
   /// Direction through image coordinates (x, y), unit component along the optical axis: point = depth * ray.
@@ -42,11 +44,11 @@ class UpdateView {
 
   Camera camera;
   float fx = 1, fy = 1, cx = 0, cy = 0, inv_fx = 1, inv_fy = 1;
-  Eigen::Matrix3f axes;     ///< rotation part of T_map_camera
-  Eigen::Vector3d centre;   ///< camera centre, map frame, m
+  Eigen::Matrix3f axes;    ///< rotation part of T_map_camera
+  Eigen::Vector3d centre;  ///< camera centre, map frame, m
   const Prediction* prediction = nullptr;
-  std::vector<float> depth;  ///< [px] m along the optical axis; NaN = no return
-  std::vector<float> sigma;  ///< [px] m, of depth
+  std::vector<float> depth;             ///< [px] m along the optical axis; NaN = no return
+  std::vector<float> sigma;             ///< [px] m, of depth
   std::vector<Eigen::Vector3f> point;   ///< [px] measured point; NaN = no return
   std::vector<Eigen::Vector3f> normal;  ///< [px] of the predicted element, unit, facing the camera; 0 at a miss
   std::vector<float> offset;            ///< [px] the described surface's plane: normal . x = offset; 0 at a miss
