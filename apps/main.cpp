@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <system_error>
 
 #include "apps/commands.hpp"
 #include "framework/core/error.hpp"
@@ -30,6 +32,8 @@ int run_command(int argc, char** argv) {
   ppm::add_new_module(app);
   try {
     app.parse(argc, argv);
+    if (std::fflush(stdout) != 0)
+      throw ppm::OutputError("cannot write to the standard output: " + std::generic_category().message(errno));
     return 0;
   } catch (const CLI::RuntimeError& e) {  // a command that ended early and has said so
     return e.get_exit_code();

@@ -64,3 +64,10 @@ TEST_CASE("check runs nothing") {
   CHECK_THAT(check->out, Contains("graph 'small' with 10 nodes is sound"));
   CHECK_FALSE(std::filesystem::exists(room.out));
 }
+
+TEST_CASE("output that cannot be written is an error") {
+  Process schema({"/bin/sh", "-c", PPM_BINARY " schema > /dev/full"});
+  schema.wait();
+  CHECK(schema.code == 1);
+  CHECK_THAT(schema.err, Contains("No space left on device"));
+}

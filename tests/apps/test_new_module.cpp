@@ -20,7 +20,8 @@ TEST_CASE("new-module writes a source once and tells how to build it") {
   CHECK(made->code == 0);
   CHECK_THAT(made->out, Contains("ppm_add_plugin(mine mine.cpp)") && Contains("--plugin build/mine.so"));
   const auto text = content(folder / "mine.cpp");
-  CHECK_THAT(text, Contains("class Mine final") && Contains("\"motion.mine\"") && !Contains("NewModule") && !Contains("category.name"));
+  CHECK_THAT(text, Contains("class Mine final") && Contains("\"motion.mine\"") && !Contains("NewModule") &&
+                       !Contains("category.name"));
 
   write_text(folder / "mine.cpp", "edited");
   const auto again = ppm_command({"new-module", "motion.mine", "--dir", folder.path().string()});

@@ -6,6 +6,19 @@
 using namespace ppm::test;
 using Catch::Matchers::Contains;
 
+namespace {
+
+/// Until a run is well among its frames.
+void wait_for_frames() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  std::this_thread::sleep_for(std::chrono::seconds(10));
+#else
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+#endif
+}
+
+}  // namespace
+
 TEST_CASE("a run leaves its folder complete and says where it is") {
   SmallRoom room;
   const auto run = room.run();
@@ -107,7 +120,7 @@ TEST_CASE("Ctrl-C ends the frame, writes everything, says so; the exit code is 1
   SmallRoom room;
   auto run = start_ppm(
       {"run", room.graph, "--out", room.out.string(), "--set", "camera.frames=100000", "--set", "camera.holdout=none"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  wait_for_frames();
   run->send(SIGINT);
   run->wait();
   INFO(run->err);
@@ -126,7 +139,7 @@ TEST_CASE("a second Ctrl-C aborts: no result is left under its name") {
   SmallRoom room;
   auto run = start_ppm({"run", room.graph, "--out", room.out.string(), "--set", "camera.frames=100000", "--set",
                         "camera.pixel_stride=1", "--set", "init.particles=400", "--set", "camera.holdout=none"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  wait_for_frames();
   run->send(SIGINT);
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   run->send(SIGINT);

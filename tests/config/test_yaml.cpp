@@ -2,6 +2,7 @@
 
 #include "framework/config/config.hpp"
 #include "framework/core/atomic_file.hpp"
+#include "framework/core/rng.hpp"
 #include "tests/support/temp_folder.hpp"
 
 using namespace ppm;
@@ -178,6 +179,37 @@ TEST_CASE("any text survives as value, list item and key") {
     REQUIRE_NOTHROW(back = parse_yaml(deep.to_yaml(), "t"));
     CHECK(same(back, deep));
   }
+}
+
+TEST_CASE("a damaged text is read or refused with a place, and what is read survives to_yaml") {
+  const std::string sound =
+      "name: \"a b\"\nlist: [1, 'x''y', {a: b}]\nlines: |\n  text\n  more\nfolded: >\n  some\n  words\n"
+      "n:\n- - 1\n  - b: c\n    d: {e: [2 cm, -3], f: }\n- plain text # a comment\n";
+  const std::string pieces[] = {"{", "}", "[",  "]", ": ", "- ",    "\n",    "'", "\"", "&a ",  "*a", "!!x ", "#", "|",
+                                ">", "%", "? ", ",", "\t", "---\n", "...\n", "~", "\\", "\x80", "µ",  "\r\n", "  "};
+  Rng rng(1, 0, 0, 0);
+  int read = 0, refused = 0;
+  for (int n = 0; n < 2000; ++n) {
+    std::string text = sound;
+    for (auto k = 1 + rng.below(2); k > 0; --k) {
+      const auto at = rng.below(static_cast<std::uint32_t>(text.size()));
+      const auto kind = rng.below(4);
+      if (kind == 0) text[at] = static_cast<char>(rng.below(256));
+      if (kind == 1) text.erase(at, rng.below(10));
+      if (kind >= 2) text.insert(at, pieces[rng.below(std::size(pieces))]);
+    }
+    CAPTURE(text);
+    try {
+      const auto c = parse_yaml(text, "t");
+      ++read;
+      REQUIRE(same(parse_yaml(c.to_yaml(), "t"), c));
+    } catch (const ConfigError& e) {
+      ++refused;
+      for (const auto& d : e.diagnostics()) REQUIRE(d.place.line >= 1);
+    }
+  }
+  CHECK(read > 400);
+  CHECK(refused > 400);
 }
 
 TEST_CASE("files that cannot be read") {
