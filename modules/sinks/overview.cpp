@@ -39,22 +39,51 @@ double area_facing(const Mesh& mesh, const Eigen::Vector3d& towards) {
   return sum;
 }
 
-/// The range of a coordinate without the outermost two thousandths at each end.
-std::pair<double, double> robust_range(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto margin = values.size() / 500;
-  return {values[margin], values[values.size() - 1 - margin]};
+/// A point to be in the picture, in the axes of the camera, and how much surface it stands for.
+struct Subject {
+  Eigen::Vector3d p;
+  double weight;
+};
+
+/// What is to be seen: the corners of the faces that are turned towards the eye, and the path, which counts for a
+/// tenth.
+std::vector<Subject> subjects_of(const Mesh& mesh, const std::vector<Pose>& path, const Eigen::Vector3d& towards,
+                                 const Eigen::Matrix3d& axes) {
+  std::vector<Subject> subjects;
+  double total = 0;
+  std::size_t face = 0;
+  for_each_normal(mesh, [&](const Eigen::Vector3d& n) {
+    const auto& corners = mesh.face[face++];
+    if (n.dot(towards) <= 0) return;
+    total += n.norm();
+    for (auto v : corners) subjects.push_back({axes.transpose() * mesh.position[v].cast<double>(), n.norm() / 3});
+  });
+  const double share = (total > 0 ? 0.1 * total : 1.0) / static_cast<double>(std::max<std::size_t>(path.size(), 1));
+  for (const auto& T : path) subjects.push_back({axes.transpose() * T.translation(), share});
+  return subjects;
 }
 
-/// Shifts the eye sideways, so that the points lie in the middle of the picture, to first order.
-void centre(const std::vector<Eigen::Vector3d>& points, Eigen::Vector3d& eye) {
-  std::array<std::vector<double>, 2> slope;
+/// The range of a coordinate (first) without the outermost half thousandth of the weight (second) at each end.
+std::pair<double, double> robust_range(std::vector<std::pair<double, double>> values) {
+  std::sort(values.begin(), values.end());
+  double total = 0;
+  for (const auto& v : values) total += v.second;
+  auto low = values.begin(), high = values.end() - 1;
+  for (double left = total / 2000; (left -= low->second) > 0 && low != high;) ++low;
+  for (double left = total / 2000; (left -= high->second) > 0 && high != low;) --high;
+  return {low->first, high->first};
+}
+
+/// Shifts the eye sideways, so that the subjects lie in the middle of the picture, to first order.
+void centre(const std::vector<Subject>& subjects, Eigen::Vector3d& eye) {
+  std::array<std::vector<std::pair<double, double>>, 2> slope;
   std::vector<double> depths;
-  for (const auto& p : points) {
-    const Eigen::Vector3d q = p - eye;
+  for (const auto& subject : subjects) {
+    const Eigen::Vector3d q = subject.p - eye;
     if (q.z() <= 0) continue;
     depths.push_back(q.z());
-    for (int axis = 0; axis < 2; ++axis) slope[static_cast<std::size_t>(axis)].push_back(q[axis] / q.z());
+    for (int axis = 0; axis < 2; ++axis)
+      slope[static_cast<std::size_t>(axis)].push_back({q[axis] / q.z(), subject.weight});
   }
   if (depths.empty()) return;
   const double depth = quantile(depths, 0.5);
@@ -64,15 +93,15 @@ void centre(const std::vector<Eigen::Vector3d>& points, Eigen::Vector3d& eye) {
   }
 }
 
-/// Places the camera, whose axes are given, so that nearly all points fill the picture. Points: axes' coordinates.
-Eigen::Vector3d fit(const std::vector<Eigen::Vector3d>& points, const Camera& camera) {
+/// Places the eye, in the axes of the camera, so that nearly all subjects fill the picture.
+Eigen::Vector3d fit(const std::vector<Subject>& subjects, const Camera& camera) {
   // A point is inside the left border if x + s z >= x0 + s z0, with s the border's slope: each border is an extreme
   // value.
   auto place = [&](int axis, double slope) {
-    std::vector<double> low, high;
-    for (const auto& p : points) {
-      low.push_back(p[axis] + slope * p.z());
-      high.push_back(p[axis] - slope * p.z());
+    std::vector<std::pair<double, double>> low, high;
+    for (const auto& subject : subjects) {
+      low.push_back({subject.p[axis] + slope * subject.p.z(), subject.weight});
+      high.push_back({subject.p[axis] - slope * subject.p.z(), subject.weight});
     }
     const double least = robust_range(low).first, most = robust_range(high).second;
     return std::pair{(least + most) / 2, (least - most) / (2 * slope)};  // the eye's coordinate, its depth
@@ -81,7 +110,7 @@ Eigen::Vector3d fit(const std::vector<Eigen::Vector3d>& points, const Camera& ca
   const auto [x, z_for_x] = place(0, kMargin * camera.cols / (2 * camera.fx));
   const auto [y, z_for_y] = place(1, kMargin * camera.rows / (2 * camera.fy));
   Eigen::Vector3d eye(x, y, std::min(z_for_x, z_for_y));
-  for (int i = 0; i < 4; ++i) centre(points, eye);
+  for (int i = 0; i < 4; ++i) centre(subjects, eye);
   return eye;
 }
 
@@ -128,11 +157,9 @@ View overview(const Mesh& mesh, const std::vector<Pose>& path, const Eigen::Vect
   View view;
   const double focal = 1.5 * std::max(cols, rows);
   view.camera = {cols, rows, focal, focal, (cols - 1) / 2.0, (rows - 1) / 2.0};
-  std::vector<Eigen::Vector3d> points;
-  for (const auto& p : mesh.position) points.push_back(axes.transpose() * p.cast<double>());
-  for (const auto& T : path) points.push_back(axes.transpose() * T.translation());
+  const auto subjects = subjects_of(mesh, path, towards, axes);
   Eigen::Vector3d eye(0, 0, -1);
-  if (!points.empty()) eye = fit(points, view.camera);
+  if (!subjects.empty()) eye = fit(subjects, view.camera);
   if (mesh.position.empty()) eye.z() -= 1;  // a path alone may be a point
   view.T_map_camera.linear() = axes;
   view.T_map_camera.translation() = axes * eye;

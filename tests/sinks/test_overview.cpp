@@ -51,7 +51,13 @@ TEST_CASE("an overview contains the room, fills the picture, and looks into the 
     CHECK(view.T_map_camera.linear().determinant() == Approx(1));
     CHECK(view.T_map_camera.translation().z() > 2.5);
     Eigen::AlignedBox2d box;
-    for (const auto& p : mesh.position) box.extend(view.camera.project(view.T_map_camera.inverse() * p.cast<double>()));
+    for (const auto& face : mesh.face) {
+      auto corner = [&](std::size_t k) -> Eigen::Vector3d {
+        return view.T_map_camera.inverse() * mesh.position[face[k]].cast<double>();
+      };
+      if ((corner(1) - corner(0)).cross(corner(2) - corner(0)).dot(corner(0)) >= 0) continue;  // seen from behind
+      for (std::size_t k = 0; k < 3; ++k) box.extend(view.camera.project(corner(k)));
+    }
     CHECK(box.min().minCoeff() > -0.5);
     CHECK(box.max().x() < cols - 0.5);
     CHECK(box.max().y() < rows - 0.5);
