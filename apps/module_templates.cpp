@@ -136,7 +136,7 @@ using namespace ppm;
 /// expected| / scale), independent over pixels.
 class NewModule final : public Weighting {
  public:
-  NewModule() {
+  NewModule() : Weighting(0) {  // by default all pixels are compared
     params_.add("scale", scale_m_).unit("m").above(0).doc("Mean absolute error that is expected of a range.");
   }
 
