@@ -80,6 +80,35 @@ TEST_CASE("a second view that overlaps the first is stitched to it: no crack, no
   CHECK(misses == 0);
 }
 
+TEST_CASE("a camera whose image rows grow against its y axis maps the same room") {
+  const auto scene = room_with_box();
+  Camera camera = small_camera();
+  camera.fy = -camera.fy;
+  Mapper mapper;
+  for (std::uint32_t i = 0; i < 12; ++i)
+    mapper.add(scene.frame(camera, look({0.2, 0, 0.2}, 0.05 * i - 0.3, 0.1), kSigma, i, true));
+  const auto a = agreement(mapper, scene, look({0.22, 0.02, 0.2}, 0, 0.12), 0.95);
+  CHECK(a.coverage > 0.93);  // back faces are not hit: a mesh wound the wrong way round would show nothing
+  CHECK(a.error_m < 0.02);
+  CHECK(mapper.second_layers(small_camera(), look({0.2, 0, 0.2}, 0.1, 0.1)) < 0.002);
+}
+
+TEST_CASE("with a prediction of every second pixel the update works on that grid") {
+  const BoxWorld scene;
+  const Frame frame = scene.frame(small_camera(), look({0, 0, 1.8}), kSigma, 0, false);
+  Prediction seen;
+  seen.reset(frame.camera, 2, *frame.T_world_camera_ref);
+  UpdateSettings settings;
+  settings.share();
+  const auto map = update_map(std::make_shared<const PpmMap>(PpmSettings{}), frame, seen, settings, 0);
+  map->check();
+  CHECK(map->stats().faces > 20);
+  CHECK(map->stats().faces < 60);  // 40x30 pixels in leaves of 8
+  Prediction wrong;
+  wrong.reset(frame.camera.decimated(2), 1, *frame.T_world_camera_ref);
+  CHECK_THROWS_AS(update_map(map, frame, wrong, settings, 1), InternalError);
+}
+
 TEST_CASE("an update with nothing new changes no face") {
   const auto scene = room_with_box();
   Mapper mapper;
