@@ -51,7 +51,7 @@ TEST_CASE("a slanted plane is covered by the largest leaves, and their planes ar
   const auto image = image_of(slanted);
   const auto leaves = disparity_leaves(image, everywhere(image), {});
   int cols = 0;
-  for (int size : sizes_by_cell(image, leaves, 2, cols)) CHECK(size == 8);
+  for (int size : sizes_by_cell(image, leaves, 2, cols)) CHECK(size == 16);
   for (const auto& leaf : leaves)
     for (int k = 0; k < 4; ++k) {
       const int x = leaf.x + (k & 1) * leaf.size, y = leaf.y + (k >> 1) * leaf.size;

@@ -48,7 +48,7 @@ TEST_CASE("one image of a flat wall gives a few large faces that lie on it") {
   Mapper mapper;
   const Pose pose = look({0, 0, 1.8});  // nothing but the far wall in view
   mapper.add(scene.frame(small_camera(), pose, kSigma, 0, false));
-  CHECK(mapper.map().stats().faces < 220);  // 80x60 pixels in leaves of 8 pixels: 160 triangles where no leaf is split
+  CHECK(mapper.map().stats().faces < 60);  // 80x60 pixels in leaves of 16 pixels: 40 triangles where no leaf is split
   const auto a = agreement(mapper, scene, pose, 1.0);
   CHECK(a.coverage > 0.94);  // all but the rays along the border
   CHECK(a.error_m < 1e-4);
@@ -102,8 +102,8 @@ TEST_CASE("with a prediction of every second pixel the update works on that grid
   settings.share();
   const auto map = update_map(std::make_shared<const PpmMap>(PpmSettings{}), frame, seen, settings, 0);
   map->check();
-  CHECK(map->stats().faces > 20);
-  CHECK(map->stats().faces < 60);  // 40x30 pixels in leaves of 8
+  CHECK(map->stats().faces > 8);
+  CHECK(map->stats().faces < 60);  // 40x30 pixels in leaves of 16
   Prediction wrong;
   wrong.reset(frame.camera.decimated(2), 1, *frame.T_world_camera_ref);
   CHECK_THROWS_AS(update_map(map, frame, wrong, settings, 1), InternalError);
