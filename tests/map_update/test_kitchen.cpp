@@ -1,4 +1,5 @@
-// The update on real frames with known poses: what the map predicts of frames that it has not seen, and whether it is one layer.
+// The update on real frames with known poses: what the map predicts of frames that it has not seen, and whether it is
+// one layer.
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -37,8 +38,9 @@ TEST_CASE("kitchen: frames that were held out are predicted by one layer of surf
   if (!folder) return;
   Registry registry;
   register_builtin(registry);
-  Harness source(registry, "source.seven_scenes",
-                 fmt::format("{{path: {}, last: 119, stride: 2, pixel_stride: 2, holdout: every 10th}}", folder->string()));
+  Harness source(
+      registry, "source.seven_scenes",
+      fmt::format("{{path: {}, last: 119, stride: 2, pixel_stride: 2, holdout: every 10th}}", folder->string()));
   Mapper mapper;
   Frame last;
   while (source.tick()) {
@@ -54,8 +56,10 @@ TEST_CASE("kitchen: frames that were held out are predicted by one layer of surf
   const auto score = scorer.score();
   const double layers = mapper.second_layers(last.camera.decimated(2), *last.T_world_camera_ref);
   const double open = open_edges_per_m2(mapper.map());
-  fmt::print("kitchen, 60 frames: coverage {:.4f}, median {:.2f} mm, within 5 cm {:.3f}, second layers {:.4f}, open edges {:.0f} per m2\n",
-             score.coverage, score.median_mm, score.within_5cm, layers, open);
+  fmt::print(
+      "kitchen, 60 frames: coverage {:.4f}, median {:.2f} mm, within 5 cm {:.3f}, second layers {:.4f}, open edges "
+      "{:.0f} per m2\n",
+      score.coverage, score.median_mm, score.within_5cm, layers, open);
   CHECK(score.coverage > 0.96);
   CHECK(score.median_mm < 9);
   CHECK(score.within_5cm > 0.92);

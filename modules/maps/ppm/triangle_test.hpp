@@ -14,9 +14,9 @@ struct TriangleSettings {
   float fit_share = 0.75f;     ///< least share of samples that fit
   float own_share = 0.40f;     ///< most share of samples that the map explains already by their own hit
   float cosine_least = 0.15f;  ///< least cosine between the triangle's normal and the line of sight to its centroid
-  float steep_cosine = 0.3f;   ///< a triangle seen at less than this must also agree with the normals at its corners: a
-                              ///< slanted surface does, a bridge over a depth jump does not
-  float steep_agree = 0.7f;  ///< least mean cosine between the triangle's normal and those at its corners, then
+  float steep_cosine = 0.25f;  ///< a triangle seen at less than this must also agree with the normals at its corners: a
+                               ///< slanted surface does, a bridge over a depth jump does not
+  float steep_agree = 0.5f;    ///< least mean cosine between the triangle's normal and those at its corners, then
 };
 
 /// Whether a triangle that is proposed as new surface agrees with the image: samples are the pixels inside it, its
