@@ -6,6 +6,7 @@ cd "$(dirname "$0")/../.."
 ppm=${PPM:-build/bin/ppm}
 data=${PPM_DATA:-../shared/data}
 out=runs/results
+bench=$(dirname "$ppm")/bench_belief
 page=docs/results/main_job.md
 seeds=${1:-7}
 mkdir -p "$out"
@@ -52,6 +53,8 @@ if [ -d "$data/kitchen" ]; then
     echo
     command_line configs/kitchen_mapping.yaml --set camera.last=299
     command_line configs/kitchen_mapping.yaml
+    echo
+    echo "![The kitchen, all frames](../images/kitchen.png)"
   } >>"$page.part"
 fi
 
@@ -97,6 +100,18 @@ done
 {
   echo
   command_line configs/room.yaml --frames 30 --threads N
+  if [ -x "$bench" ]; then
+    echo
+    echo "## What copying a particle costs"
+    echo
+    echo "A map of 2,000 chunks; \`gather/N\` resamples N particles, \`first_edit_of_a_copy/K\` writes texels of K chunks of a map that others share."
+    echo
+    echo "| case | µs of CPU |"
+    echo "|---|---|"
+    "$bench" --benchmark_format=csv 2>/dev/null | awk -F, 'NR > 1 { gsub(/"/, "", $1); printf "| `%s` | %.4g |\n", $1, $4 }'
+    echo
+    echo "    bench_belief"
+  fi
 } >>"$page.part"
 mv "$page.part" "$page"
 echo "wrote $page"
