@@ -57,6 +57,13 @@ class PpmBayesUpdate final : public MapEditor {
             "How measurements reach texels: scatter lets each pixel update the texel that its ray hit (the paper's "
             "form), gather "
             "lets each visible texel read the image where it is seen.");
+    params_
+        .add_choice("new_texels", settings_.texels.new_texels,
+                    {{"measured", NewTexels::measured}, {"sensor", NewTexels::sensor}})
+        .doc(
+            "What the texels of new faces start with: measured fuses the map's prior with what this image measures, "
+            "sensor "
+            "is zero mean with the sensor's variance (the paper's form).");
     params_.add("gate_update", settings_.texels.gate_sigmas)
         .range(0.1, 100)
         .doc("A measurement farther than so many standard deviations from a texel's surface does not update it.");
@@ -88,6 +95,15 @@ class PpmBayesUpdate final : public MapEditor {
     params_.add("leaf_valid", s.leaves.valid_share)
         .range(0.1, 1)
         .doc("Least share of a leaf's pixels that must be measured.");
+    params_.add("gap_vertex", s.gap_vertex_px)
+        .range(0, 100)
+        .doc("Corners of leaves that are nearer than so many pixels to a boundary vertex of the map are dropped ...");
+    params_.add("gap_vertex_leaf", s.gap_vertex_leaf)
+        .range(0, 10)
+        .doc("... and those nearer than so many sizes of their leaf.");
+    params_.add("gap_edge", s.gap_edge_px)
+        .range(0, 100)
+        .doc("Corners of leaves that are nearer than so many pixels to a boundary edge of the map are dropped.");
     params_.add("smooth_radius", s.smooth_radius)
         .range(0, 8)
         .doc("Radius in pixels of the smoothing of disparity before leaves are fitted; 0 = none.");

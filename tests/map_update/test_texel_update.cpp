@@ -125,3 +125,19 @@ TEST_CASE("scatter: each own hit updates the texel nearest to it, like the close
   }
   CHECK(updated == 1);
 }
+
+TEST_CASE("new texels in the paper's form: zero mean and the sensor's variance; the prior's without a measurement") {
+  Wall wall;
+  TexelSettings settings;
+  settings.new_texels = NewTexels::sensor;
+  settings.lateral_px = 0;
+  const Prediction nothing = prediction_of([](int, int) { return NAN; });
+  for (const bool measured : {true, false}) {
+    const Frame frame = frame_of([measured](int, int) { return measured ? 1.99f : NAN; });
+    UpdateView view;
+    view.build(frame, nothing);
+    start_texels(view, settings, wall.corner, wall.divisions, kPrior, wall.mean, wall.variance);
+    for (float m : wall.mean) CHECK(m == 0);
+    for (float v : wall.variance) CHECK(v == Approx(measured ? 0.004 * 0.004 : kPrior).epsilon(0.05));
+  }
+}

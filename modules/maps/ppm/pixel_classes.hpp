@@ -37,7 +37,7 @@ enum PixelClass : std::uint8_t {
 /// positive in front. Needs a measurement at p and a hit at q.
 float surface_distance(const UpdateView& view, const SurfaceGate& gate, std::size_t p, std::size_t q);
 
-/// Classes of all pixels [px]: 0 without a measurement. gate_sigmas: how many spreads still fit (RECIPE: 4).
+/// Classes of all pixels [px]: 0 without a measurement. gate_sigmas: how many spreads still fit.
 /// gone: pixels [px] whose predicted face was deleted count as misses; empty = none.
 void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas,
                      const std::vector<std::uint8_t>& gone, std::vector<std::uint8_t>& classes);

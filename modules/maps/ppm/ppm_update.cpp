@@ -20,9 +20,10 @@ class FaceWriter {
     }
     const PpmSettings& map = edit_.map().settings();
     const auto n = edit_.map().divisions_for(corner[0], corner[1], corner[2]);
-    mean_.assign(texel_count(n), 0.0f);
-    variance_.assign(texel_count(n), static_cast<float>(map.prior_sigma_m * map.prior_sigma_m));
-    gather_face(view_, texels_, corner, n, mean_, variance_);
+    mean_.resize(texel_count(n));
+    variance_.resize(texel_count(n));
+    start_texels(view_, texels_, corner, n, static_cast<float>(map.prior_sigma_m * map.prior_sigma_m), mean_,
+                 variance_);
     edit_.add_face(ids, static_cast<std::uint8_t>(n), mean_, variance_);
   }
 

@@ -93,6 +93,21 @@ void gather_face(const UpdateView& view, const TexelSettings& settings, const st
     }
 }
 
+void start_texels(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
+                  std::uint32_t divisions, float prior_variance, std::span<float> mean, std::span<float> variance) {
+  std::fill(mean.begin(), mean.end(), 0.0f);
+  std::fill(variance.begin(), variance.end(), prior_variance);
+  if (settings.new_texels == NewTexels::measured) return gather_face(view, settings, corner, divisions, mean, variance);
+  const Eigen::Vector3f centroid = (corner[0] + corner[1] + corner[2]) / 3;
+  const Eigen::Vector3f image = view.project(centroid);
+  const int x = static_cast<int>(std::lround(image.x())), y = static_cast<int>(std::lround(image.y()));
+  if (!view.inside(x, y) || !view.measured(view.at(x, y))) return;
+  const Eigen::Vector3f normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+  const float cosine = std::max(UpdateView::facing(normal, centroid), settings.gate.least_cosine);
+  const float lateral = settings.lateral_px * image.z() * view.inv_fx;
+  std::fill(variance.begin(), variance.end(), variance_along_normal(view.sigma[view.at(x, y)], cosine, lateral));
+}
+
 void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<FaceRef>& faces,
                    const TexelSettings& settings, PpmEdit& edit) {
   if (settings.form == TexelForm::scatter) {

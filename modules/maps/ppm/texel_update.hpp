@@ -15,8 +15,15 @@ enum class TexelForm {
   gather,   ///< each texel of a visible face is projected and reads the measurement there
 };
 
+/// What the texels of a new face start with.
+enum class NewTexels {
+  measured,  ///< the map's prior, fused with what this image measures at each (gather)
+  sensor,    ///< zero mean and the sensor's variance: the paper's form
+};
+
 struct TexelSettings {
   TexelForm form = TexelForm::gather;
+  NewTexels new_texels = NewTexels::measured;
   SurfaceGate gate;
   float gate_sigmas = 3;    ///< measurements farther from the texel's surface than so many gate spreads are left out
   float lateral_px = 0.5f;  ///< px, the sensor's uncertainty across the line of sight
@@ -42,6 +49,11 @@ inline void fuse(float& mean, float& variance, float offset, float measured_vari
 /// several: its variance grows by the ratio of areas, so that near and far views mix rightly.
 void gather_face(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
                  std::uint32_t divisions, std::span<float> mean, std::span<float> variance);
+
+/// First texels of a new face, [texel_count(divisions)] each, all assigned. prior_variance: the map's, m^2; it stands
+/// in for the sensor's where the face's centroid has no measurement.
+void start_texels(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
+                  std::uint32_t divisions, float prior_variance, std::span<float> mean, std::span<float> variance);
 
 /// Updates the texels of the faces in view. `faces`: those that rays met (see tally_faces), without the removed ones.
 /// The scatter form uses the pixels of class kOwnHit.

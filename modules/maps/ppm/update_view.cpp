@@ -22,6 +22,8 @@ void set_camera(UpdateView& view, const Camera& camera, const Pose& T_map_camera
 void UpdateView::build(const Frame& frame, const Prediction& seen) {
   PPM_CHECK(seen.camera == frame.camera.decimated(seen.stride), "the prediction is not one of frame {}'s camera",
             frame.index);
+  PPM_CHECK(seen.camera.cols > 1 && seen.camera.rows > 1, "an image of {}x{} pixels shows no surface", seen.camera.cols,
+            seen.camera.rows);
   set_camera(*this, seen.camera, seen.T_map_camera);
   prediction = &seen;
   const auto pixels = static_cast<std::size_t>(camera.pixels());
