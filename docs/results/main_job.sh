@@ -36,7 +36,7 @@ slam_row() {
   echo "# The main job on the room and on real frames"
   echo
   echo "Written by \`bash docs/results/main_job.sh \"$seeds\"\`. Machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1)."
-  echo "Definitions: [metrics](../metrics.md). Times are of a shared machine: read ratios."
+  echo "Definitions: [metrics](../metrics.md). Two cores, nothing else running."
 } >"$page.part"
 
 if [ -d "$data/kitchen" ]; then
