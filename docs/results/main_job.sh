@@ -81,12 +81,30 @@ for seed in $seeds; do
     slam_row icl_slam_$seed $seed >>"$page.part"
   fi
 done
+memory_rows() {  # NAME: what the maps of all particles occupy, over the run
+  awk -F, '
+    NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i; next }
+    $column["table.map_bytes_owned"] != "" && $1 % 30 == 0 {
+      owned = $column["table.map_bytes_owned"] / 1048576; alone = $column["table.map_bytes_alone"] / 1048576
+      printf "| %d | %.1f | %.1f | %.1f %% |\n", $1, owned, alone, 100 * owned / alone
+    }' "$out/$1/metrics.csv"
+}
 {
   echo
   command_line configs/room.yaml --seed SEED
   command_line configs/kitchen_slam_paper.yaml --seed SEED --set camera.last=299
   command_line configs/kitchen_slam.yaml --seed SEED --set camera.last=299
   command_line configs/icl_slam.yaml --seed SEED
+  echo
+  echo "## What sharing saves"
+  echo
+  first=room_${seeds%% *}
+  [ -d "$data/kitchen" ] && first=kitchen_slam_${seeds%% *}
+  echo "Memory of the maps of all 100 particles in the run \`$first\`, against what they would occupy each for itself."
+  echo
+  echo "| frame | owned, MiB | without sharing, MiB | share |"
+  echo "|---|---|---|---|"
+  memory_rows "$first"
   echo
   echo "## Same bytes for any number of threads"
   echo
