@@ -58,7 +58,7 @@ TEST_CASE("a run leaves its folder complete and says where it is") {
   for (const auto& f : files) CHECK(std::filesystem::file_size(room.out / f) > 0);
 }
 
-TEST_CASE("the same bytes for 1, 2 and 4 threads, and from the effective configuration; others for another seed") {
+TEST_CASE("the same bytes for 1, 2 and 4 threads, and from the effective configuration, others for another seed") {
   SmallRoom room;
   auto digest = [&](std::vector<std::string> more) {
     const auto run = room.run(std::move(more));
@@ -116,7 +116,7 @@ TEST_CASE("with known poses the held-out frames are looked at from the reference
   CHECK(json["trajectory"]["ate_rmse_m"].get<double>() < 1e-9);
 }
 
-TEST_CASE("Ctrl-C ends the frame, writes everything, says so; the exit code is 1") {
+TEST_CASE("Ctrl-C ends the frame, writes everything, says so, the exit code is 1") {
   SmallRoom room;
   auto run = start_ppm(
       {"run", room.graph, "--out", room.out.string(), "--set", "camera.frames=100000", "--set", "camera.holdout=none"});

@@ -68,7 +68,7 @@ TEST_CASE("every value knows its place") {
   CHECK(at(*c.find("empty")) == "7:1");
 }
 
-TEST_CASE("scalars stay texts; quotes are remembered") {
+TEST_CASE("scalars stay texts, quotes are remembered") {
   const auto c = parse_yaml("a: yes\nb: 010\nc: 'yes'\nd: \"x\\ty\"\ne: ~\nf: two words\n", "t.yaml");
   CHECK(c.find("a")->text() == "yes");
   CHECK(c.find("b")->text() == "010");

@@ -56,7 +56,7 @@ TEST_CASE("without noise, constant velocity stays on a path of constant velocity
   }
 }
 
-TEST_CASE("a path of one pose has no velocity; decay shortens it") {
+TEST_CASE("a path of one pose has no velocity, decay shortens it") {
   ppm::Harness still(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 0, sigma_r: 0}");
   still.belief().init(1, ppm::se3_exp(some_twist()), nullptr);
   still.belief().extend(0, {0, 0.0, ppm::se3_exp(some_twist())});

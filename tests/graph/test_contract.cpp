@@ -114,7 +114,7 @@ TEST_CASE("contract: a module is described in every form") {
   });
 }
 
-TEST_CASE("contract: a module made and dropped leaves nothing; opened with defaults it works or says why not") {
+TEST_CASE("contract: a module made and dropped leaves nothing, opened with defaults it works or says why not") {
   test::TempFolder folder;
   check_each([&](const ModuleInfo& info, Module&) {
     try {

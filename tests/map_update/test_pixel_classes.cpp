@@ -31,7 +31,7 @@ constexpr std::size_t kMiddle = 30 * 80 + 40;
 
 }  // namespace
 
-TEST_CASE("a pixel within the gate is an own hit; in front of it, something new; behind it, seen through") {
+TEST_CASE("a pixel within the gate is an own hit, in front of it, something new, behind it, seen through") {
   // One spread is sqrt(0.004^2 + 0.01^2) = 10.8 mm; the gate is at 43 mm.
   CHECK(classes_of([](int, int) { return 1.96f; }, wall)[kMiddle] == (kOwnHit | kExplained));
   CHECK(classes_of([](int, int) { return 2.04f; }, wall)[kMiddle] == (kOwnHit | kExplained));

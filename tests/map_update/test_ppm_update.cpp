@@ -118,7 +118,7 @@ TEST_CASE("an update with nothing new changes no face") {
   CHECK(mapper.map().stats().faces == faces);
 }
 
-TEST_CASE("a box that appears gets faces of its own; one that goes away is seen through and goes") {
+TEST_CASE("a box that appears gets faces of its own, one that goes away is seen through and goes") {
   BoxWorld empty, full = room_with_box();
   Mapper mapper;
   std::uint32_t i = 0;

@@ -126,7 +126,7 @@ TEST_CASE("scatter: each own hit updates the texel nearest to it, like the close
   CHECK(updated == 1);
 }
 
-TEST_CASE("new texels in the paper's form: zero mean and the sensor's variance; the prior's without a measurement") {
+TEST_CASE("new texels in the paper's form: zero mean and the sensor's variance, the prior's without a measurement") {
   Wall wall;
   TexelSettings settings;
   settings.new_texels = NewTexels::sensor;

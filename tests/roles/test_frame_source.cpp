@@ -97,7 +97,7 @@ TEST_CASE("a source gives the selected images in order, then ends") {
   CHECK(held.source().selected().size() == 8);
 }
 
-TEST_CASE("frames carry decimated images; held-out ones keep every pixel") {
+TEST_CASE("frames carry decimated images, held-out ones keep every pixel") {
   ToyRun toy("{pixel_stride: 2, holdout: every 4th, max_range: 1.5 m}");
   REQUIRE(toy.h.tick());
   const auto frame = toy.h.output<ppm::Frame>("frame");

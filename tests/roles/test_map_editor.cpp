@@ -64,7 +64,7 @@ TEST_CASE("copies of one ancestor are edited once and share the result") {
   }
 }
 
-TEST_CASE("a map that only twins have is edited in place; a snapshot is never touched") {
+TEST_CASE("a map that only twins have is edited in place, a snapshot is never touched") {
   ppm::Harness h(toys(), "refinement.add_one");
   auto& belief = h.belief();
   belief.init(3, shifted(0), number_map(1));

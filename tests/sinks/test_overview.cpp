@@ -38,7 +38,7 @@ TEST_CASE("up is found from the floor, though cameras look down") {
   CHECK((up - q.cast<double>() * Eigen::Vector3d::UnitZ()).norm() < 1e-5);
 }
 
-TEST_CASE("without a mesh, up is against the cameras' y axes; without a path it is z") {
+TEST_CASE("without a mesh, up is against the cameras' y axes, without a path it is z") {
   CHECK(estimate_up({}, {looking_along_x({0, 0, 0}, 0)}).isApprox(Eigen::Vector3d::UnitZ()));
   CHECK(estimate_up({}, {}) == Eigen::Vector3d::UnitZ());
 }
