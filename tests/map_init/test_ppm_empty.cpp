@@ -2,23 +2,13 @@
 
 #include "framework/graph/harness.hpp"
 #include "framework/slam/frame.hpp"
-#include "modules/builtin.hpp"
 #include "modules/maps/ppm/ppm_map.hpp"
+#include "tests/support/registry.hpp"
 
 using namespace ppm;
 
-namespace {
-
-Registry builtin() {
-  Registry registry;
-  register_builtin(registry);
-  return registry;
-}
-
-}  // namespace
-
 TEST_CASE("map.ppm_empty starts all particles on one empty map at the reference pose") {
-  const Registry registry = builtin();
+  const Registry& registry = test::builtin();
   Harness h(registry, "map.ppm_empty", "{particles: 7, cell_size: 50 cm, texel_size: 1 cm, prior_sigma: 3 cm}");
   auto frame = std::make_shared<Frame>();
   frame->index = 42;
@@ -43,7 +33,7 @@ TEST_CASE("map.ppm_empty starts all particles on one empty map at the reference 
 }
 
 TEST_CASE("map.ppm_empty at identity needs no reference, and without one it refuses to start there") {
-  const Registry registry = builtin();
+  const Registry& registry = test::builtin();
   auto frame = std::make_shared<Frame>();
   frame->index = 8;
   Harness at_identity(registry, "map.ppm_empty", "{particles: 2, start: identity}");

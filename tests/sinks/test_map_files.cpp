@@ -4,21 +4,15 @@
 #include <sstream>
 
 #include "framework/graph/harness.hpp"
-#include "modules/builtin.hpp"
 #include "modules/maps/ppm/ppm_file.hpp"
 #include "modules/sinks/output_name.hpp"
 #include "tests/support/ppm_maps.hpp"
+#include "tests/support/registry.hpp"
 #include "tests/support/temp_folder.hpp"
 
 using namespace ppm;
 
 namespace {
-
-Registry builtin() {
-  Registry registry;
-  register_builtin(registry);
-  return registry;
-}
 
 /// What a program that knows only the PLY format gets out of a file.
 struct PlyFile {
@@ -67,7 +61,7 @@ std::shared_ptr<const PpmMap> offset_map() {
 
 TEST_CASE("sink.mesh_ply writes a file that a plain PLY reader understands") {
   test::TempFolder dir;
-  const Registry registry = builtin();
+  const Registry& registry = test::builtin();
   const auto map = offset_map();
   for (const std::string surface : {"base", "displaced"}) {
     Harness h(registry, "sink.mesh_ply", "{surface: " + surface + ", file: " + surface + ".ply}", 1, 1, dir.path());
@@ -99,7 +93,7 @@ TEST_CASE("sink.mesh_ply writes a file that a plain PLY reader understands") {
 
 TEST_CASE("sinks write the best particle's map") {
   test::TempFolder dir;
-  const Registry registry = builtin();
+  const Registry& registry = test::builtin();
   const auto small = test::height_field(1, 1, 0.1f), large = test::height_field(4, 4, 0.1f);
   Harness h(registry, "sink.map_ppm", "{file: \"map_{frame}.ppm\"}", 1, 1, dir.path());
   h.belief().init(2, Pose::Identity(), small);
