@@ -57,6 +57,10 @@ void FrameSource::declare_noise() {
       .unit("m")
       .range(0, kNoLimit)
       .doc("Distance of least depth noise; see sigma_floor.");
+  params_.add("sigma_lateral", conditioning_.sigma_lateral)
+      .unit("px")
+      .range(0, 10)
+      .doc("Noise across the line of sight, in pixels of the image before pixel_stride.");
 }
 
 void FrameSource::open(Context& context) {

@@ -16,8 +16,8 @@ class FrameSequence {
   /// What messages call the data where no single file is to blame: its folder.
   virtual std::string name() const = 0;
   virtual std::int64_t size() const = 0;
-  /// Reads one image at full resolution: index, stamp, camera, depth, colour, reference pose. sigma may stay empty: it is then
-  /// filled from the noise parameters of FrameSource. Throws DataError naming file and frame.
+  /// Reads one image at full resolution: index, stamp, camera, depth, confidence, colour, reference pose. sigma may stay empty:
+  /// it is then filled from the noise parameters of FrameSource, as lateral_px always is. Throws DataError naming file and frame.
   virtual Frame read(std::int64_t index) const = 0;
   virtual double stamp_s(std::int64_t index) const = 0;
   /// The pose that read() would give, without reading the image.

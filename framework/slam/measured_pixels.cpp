@@ -39,7 +39,7 @@ MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int 
       out.pixel.push_back(static_cast<std::uint32_t>(y * predicted.cols + x));
       out.range.push_back(static_cast<float>(frame.depth[source] * length));
       out.variance.push_back(static_cast<float>(std::pow(frame.sigma[source] * length, 2)));
-      out.spacing.push_back(static_cast<float>(frame.depth[source] / std::abs(frame.camera.fx)));
+      out.lateral.push_back(static_cast<float>(frame.lateral_px * frame.depth[source] / std::abs(frame.camera.fx)));
       for (int k = 0; k < 3; ++k) out.direction.push_back(static_cast<float>(ray[k] / length));
     }
   return out;

@@ -21,7 +21,7 @@ struct MeasuredPixels {
   std::vector<std::uint32_t> pixel;  ///< index into the arrays of the Prediction
   std::vector<float> range;          ///< m along the ray
   std::vector<float> variance;       ///< m^2 of the range
-  std::vector<float> spacing;        ///< m, distance of neighbouring pixels of the frame at this depth, across the ray
+  std::vector<float> lateral;        ///< m, standard deviation across the ray (Frame::lateral_px at this depth)
   std::vector<float> direction;      ///< [3*size] unit, camera frame
   std::size_t size() const { return pixel.size(); }
 };

@@ -9,7 +9,7 @@ namespace {
 using namespace ppm;
 
 /// Writes what a frame says into every particle's mesh.
-/// frame   [rows*cols] depth and its sigma; NaN = no return
+/// frame   [rows*cols] depth and its sigma, NaN = no return; lateral_px
 /// belief  needs a prediction of this frame's view (any stride: the update then works on the prediction's grid)
 /// source  paper, section 4.3
 class PpmBayesUpdate final : public MapEditor {
@@ -67,9 +67,6 @@ class PpmBayesUpdate final : public MapEditor {
     params_.add("gate_update", settings_.texels.gate_sigmas)
         .range(0.1, 100)
         .doc("A measurement farther than so many standard deviations from a texel's surface does not update it.");
-    params_.add("sigma_lateral", settings_.texels.lateral_px)
-        .range(0, 10)
-        .doc("Standard deviation of a pixel's direction, in pixels: it counts on slanted surfaces.");
   }
   void add_surface() {
     auto& s = settings_.surface;

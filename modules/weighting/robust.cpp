@@ -13,7 +13,8 @@ using namespace ppm;
 /// Neighbouring pixels err together, so the sum of the logs is scaled down (temper).
 ///
 /// Variance along the ray, with c = |normal . ray|:
-///   sensor + (texel + model_sigma^2 + (lateral_sigma * pixel spacing)^2 (1 - c^2)) / c^2
+///   sensor + (texel + model_sigma^2 + lateral^2 (1 - c^2)) / c^2
+/// lateral is the frame's standard deviation across the ray.
 ///
 /// source  Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.3 (hit and random parts of the beam model;
 ///         exponent of the likelihood)
@@ -37,10 +38,6 @@ class RobustWeighting final : public Weighting {
         .unit("m")
         .range(0, 1)
         .doc("Standard deviation of the map's surface, along the normal, beyond what its texels say.");
-    params_.add("lateral_sigma", lateral_sigma_)
-        .unit("px")
-        .range(0, 10)
-        .doc("Standard deviation of a pixel's direction.");
     params_.add("depth_jump", jump_m_)
         .unit("m")
         .range(0, 10)
@@ -62,7 +59,7 @@ class RobustWeighting final : public Weighting {
         continue;
       }
       const double r = residuals.residual[i], c2 = residuals.cosine[i] * residuals.cosine[i];
-      const double lateral = lateral_sigma_ * measured.spacing[i];
+      const double lateral = measured.lateral[i];
       const double variance = measured.variance[i] + residuals.map_variance[i] +
                               (model_sigma_ * model_sigma_ + lateral * lateral * (1 - c2)) / c2;
       const double surface = inlier / std::sqrt(variance) * std::exp(-0.5 * r * r / variance);
@@ -76,8 +73,7 @@ class RobustWeighting final : public Weighting {
   }
 
  private:
-  double temper_ = 0.03, outlier_share_ = 0.1, max_range_ = 10.0, miss_density_ = 0.1, model_sigma_ = 0.005,
-         lateral_sigma_ = 0.25;
+  double temper_ = 0.03, outlier_share_ = 0.1, max_range_ = 10.0, miss_density_ = 0.1, model_sigma_ = 0.005;
 };
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST_CASE("measured pixels: grid, ranges along the ray, pixels without return le
   const float depth = frame.depth[10 * 32 + 8];
   CHECK(m.range[6] == Approx(depth * ray.norm()));
   CHECK(std::sqrt(m.variance[6]) == Approx(0.002 * ray.norm()));
-  CHECK(m.spacing[6] == Approx(depth / 30));
+  CHECK(m.lateral[6] == Approx(0.5 * depth / 30));
   CHECK(m.direction[3 * 6 + 1] == Approx(ray.y() / ray.norm()));
   CHECK(measured_pixels(frame, frame.camera, 1, {}).size() == 32 * 24 - 1);
 }

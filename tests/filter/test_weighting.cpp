@@ -113,7 +113,7 @@ TEST_CASE("weighting.robust is the tempered mixture, with a density for misses")
     }
   const double odds = log_odds("weighting.robust",
                                "{pixels: 0, temper: 0.5, outlier_share: 0.2, max_range: 8, miss_density: 0.05, "
-                               "model_sigma: 1 cm, lateral_sigma: 0.5, depth_jump: 0}",
+                               "model_sigma: 1 cm, depth_jump: 0}",
                                frame, a, b);
   CHECK(odds == Approx(0.5 * expected).epsilon(1e-4));
 }

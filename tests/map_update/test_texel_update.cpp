@@ -23,10 +23,10 @@ struct Wall {
   void gather(const std::function<float(int, int)>& depth) {
     const Frame frame = frame_of(depth);
     TexelSettings settings;
-    settings.lateral_px = 0;  // so that nearly head on the variance is the depth's
     const Prediction nothing = prediction_of([](int, int) { return NAN; });
     UpdateView view;
     view.build(frame, nothing);
+    view.lateral_px = 0;  // so that nearly head on the variance is the depth's
     gather_face(view, settings, corner, divisions, mean, variance);
   }
 };
@@ -108,11 +108,11 @@ TEST_CASE("scatter: each own hit updates the texel nearest to it, like the close
   Prediction seen = prediction_of([](int x, int y) { return x == 40 && y == 30 ? 2.0f : NAN; }, kPrior);
   UpdateView view;
   view.build(frame, seen);
+  view.lateral_px = 0;
   std::vector<std::uint8_t> classes(frame.depth.size(), 0);
   classes[30 * 80 + 40] = kOwnHit;
   TexelSettings settings;
   settings.form = TexelForm::scatter;
-  settings.lateral_px = 0;
   update_texels(view, classes, {{0, 0}}, settings, edit);
   const Texels& texels = edit.texels(0);
   const double s2 = 0.004 * 0.004;
@@ -130,12 +130,12 @@ TEST_CASE("new texels in the paper's form: zero mean and the sensor's variance, 
   Wall wall;
   TexelSettings settings;
   settings.new_texels = NewTexels::sensor;
-  settings.lateral_px = 0;
   const Prediction nothing = prediction_of([](int, int) { return NAN; });
   for (const bool measured : {true, false}) {
     const Frame frame = frame_of([measured](int, int) { return measured ? 1.99f : NAN; });
     UpdateView view;
     view.build(frame, nothing);
+    view.lateral_px = 0;
     start_texels(view, settings, wall.corner, wall.divisions, kPrior, wall.mean, wall.variance);
     for (float m : wall.mean) CHECK(m == 0);
     for (float v : wall.variance) CHECK(v == Approx(measured ? 0.004 * 0.004 : kPrior).epsilon(0.05));

@@ -23,8 +23,9 @@ ppm::Frame image_5x3() {
 
 }  // namespace
 
-TEST_CASE("decimation picks pixels from (0, 0) on, of depth, noise and colour") {
-  const auto image = image_5x3();
+TEST_CASE("decimation picks pixels from (0, 0) on, of depth, noise, confidence and colour") {
+  auto image = image_5x3();
+  for (int i = 0; i < 15; ++i) image.confidence.push_back(static_cast<float>(100 + i));
   const auto out = ppm::FrameConditioning().apply(image, 2);
   CHECK(out.index == 4);
   CHECK(out.stamp_s == 0.5);
@@ -34,6 +35,15 @@ TEST_CASE("decimation picks pixels from (0, 0) on, of depth, noise and colour") 
   CHECK(std::vector<std::uint8_t>(out.color.begin() + 9, out.color.begin() + 12) ==
         std::vector<std::uint8_t>{30, 31, 32});
   CHECK(out.color.size() == 18);
+  CHECK(out.confidence == std::vector<float>{100, 102, 104, 110, 112, 114});
+}
+
+TEST_CASE("noise across the line of sight counts in the pixels that stay") {
+  ppm::FrameConditioning conditioning;
+  CHECK(conditioning.apply(image_5x3(), 1).lateral_px == 0.5f);
+  conditioning.sigma_lateral = 0.8;
+  CHECK(conditioning.apply(image_5x3(), 2).lateral_px == 0.4f);
+  CHECK(conditioning.apply(image_5x3(), 2).confidence.empty());
 }
 
 TEST_CASE("depth that is not finite or out of range is no return") {

@@ -49,7 +49,7 @@ void gather_node(const UpdateView& view, const TexelSettings& settings, const Fa
   const float pixel = image.z() * view.inv_fx;
   const float footprint = pixel * pixel / cosine;
   const float share = std::min(1.0f, plane.texel_area / footprint);
-  fuse(mean, variance, offset, variance_along_normal(sigma, cosine, settings.lateral_px * pixel) / share);
+  fuse(mean, variance, offset, variance_along_normal(sigma, cosine, view.lateral_px * pixel) / share);
 }
 
 void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::size_t p, PpmEdit& edit) {
@@ -67,7 +67,7 @@ void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::s
   if (std::abs(offset - texels.mean[t]) > limit) return;
   const float pixel = view.depth[p] * std::abs(view.inv_fx);
   fuse(texels.mean[t], texels.variance[t], offset,
-       variance_along_normal(view.sigma[p], cosine, settings.lateral_px * pixel));
+       variance_along_normal(view.sigma[p], cosine, view.lateral_px * pixel));
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ void start_texels(const UpdateView& view, const TexelSettings& settings, const s
   if (!view.inside(x, y) || !view.measured(view.at(x, y))) return;
   const Eigen::Vector3f normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
   const float cosine = std::max(UpdateView::facing(normal, centroid), settings.gate.least_cosine);
-  const float lateral = settings.lateral_px * image.z() * view.inv_fx;
+  const float lateral = view.lateral_px * image.z() * view.inv_fx;
   std::fill(variance.begin(), variance.end(), variance_along_normal(view.sigma[view.at(x, y)], cosine, lateral));
 }
 

@@ -25,8 +25,7 @@ struct TexelSettings {
   TexelForm form = TexelForm::gather;
   NewTexels new_texels = NewTexels::measured;
   SurfaceGate gate;
-  float gate_sigmas = 3;    ///< measurements farther from the texel's surface than so many gate spreads are left out
-  float lateral_px = 0.5f;  ///< px, the sensor's uncertainty across the line of sight
+  float gate_sigmas = 3;  ///< measurements farther from the texel's surface than so many gate spreads are left out
 };
 
 /// Variance of a measured point along a surface's normal: that of its depth and that of its place in the image, each as

@@ -26,6 +26,7 @@ void UpdateView::build(const Frame& frame, const Prediction& seen) {
             seen.camera.rows);
   set_camera(*this, seen.camera, seen.T_map_camera);
   prediction = &seen;
+  lateral_px = frame.lateral_px / static_cast<float>(seen.stride);
   const auto pixels = static_cast<std::size_t>(camera.pixels());
   depth.resize(pixels);
   sigma.resize(pixels);

@@ -44,6 +44,7 @@ class UpdateView {
 
   Camera camera;
   float fx = 1, fy = 1, cx = 0, cy = 0, inv_fx = 1, inv_fy = 1;
+  float lateral_px = 0;    ///< the frame's, in pixels of this grid
   Eigen::Matrix3f axes;    ///< rotation part of T_map_camera
   Eigen::Vector3d centre;  ///< camera centre, map frame, m
   const Prediction* prediction = nullptr;
