@@ -15,7 +15,8 @@ struct MapStats {
   std::int64_t bytes = 0;  ///< all memory that this map refers to, as if it were alone
 };
 
-/// Which surface to extract: the elements as they are, or moved by their texels' means.
+/// Which surface to extract: the elements as they are, or the surface that the map describes (a mesh's texels, each
+/// moved by its mean).
 enum class Surface { base, displaced };
 
 /// A map as seen by code that does not know its kind. Immutable behind its handle: an edit makes a new one that shares

@@ -30,7 +30,7 @@ class PpmMap final : public Map {
   MapStats stats() const override;
   std::int64_t account(std::unordered_set<const void*>& seen) const override;
   void digest(Digest& digest) const override;
-  /// Surface::displaced moves each vertex along its normal by the information-weighted mean of the texels at it.
+  /// Surface::displaced has a vertex for each texel, see dense_mesh().
   Mesh mesh(Surface surface) const override;
 
   const PpmSettings& settings() const { return settings_; }

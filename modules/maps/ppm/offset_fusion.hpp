@@ -1,0 +1,29 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+namespace ppm {
+
+/// What the texels of several faces say where they meet: how far the surface lies along one common normal.
+class OffsetFusion {
+ public:
+  /// mean, variance: of a texel, along its face's normal; cosine: between that and the common normal.
+  void add(double mean, double variance, double cosine) {
+    const double c = std::max(cosine, kCosineLeast);
+    information_ += 1 / variance;
+    moved_ += c * mean / variance;
+    reach_ += c * c / variance;
+    ++count_;
+  }
+  /// m along the common normal: nearest, weighted by information, to the planes that the texels describe. Where the
+  /// faces are in one plane it is the information-weighted mean.
+  float offset() const { return static_cast<float>(moved_ / reach_); }
+  /// m^2, harmonic mean: texels that meet in a point are one place measured once, not so many independent measurements.
+  float variance() const { return static_cast<float>(count_ / information_); }
+
+ private:
+  static constexpr double kCosineLeast = 0.5;  // a texel across a sharp crease pushes no further than twice its mean
+  double information_ = 0, moved_ = 0, reach_ = 0, count_ = 0;
+};
+
+}  // namespace ppm
