@@ -79,7 +79,10 @@ Json holdout_json(const Holdout& h) {
           {"within_2cm", s.within_2cm},
           {"within_5cm", s.within_5cm},
           {"mean_trunc20cm_mm", s.mean_trunc20cm_mm},
-          {"log_density", s.log_density}};
+          {"log_density", s.log_density},
+          {"outliers", s.outliers},
+          {"within_1_sigma", s.within_1_sigma},
+          {"within_2_sigma", s.within_2_sigma}};
 }
 
 void add_accuracy(Json& json, const Accuracy& accuracy) {

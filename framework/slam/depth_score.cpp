@@ -40,8 +40,13 @@ void DepthScorer::add(const Frame& frame, const Prediction& prediction, int step
       const double sensor_sigma = frame.sigma[p] * range_per_depth;
       const double variance = prediction.range_variance(k, direction) + sensor_sigma * sensor_sigma;
       errors_m_.push_back(std::abs(off));
-      log_density_sum_ += std::log(kInlier * normal_density(off, variance) + (1 - kInlier) * kUniform);
+      const double normal = kInlier * normal_density(off, variance), uniform = (1 - kInlier) * kUniform;
+      log_density_sum_ += std::log(normal + uniform);
       ++covered_;
+      if (normal < uniform) continue;
+      ++inliers_;
+      within_1_sigma_ += off * off <= variance;
+      within_2_sigma_ += off * off <= 4 * variance;
     }
   }
 }
@@ -64,6 +69,12 @@ DepthScore DepthScorer::score() const {
   out.within_5cm = within(0.05);
   out.mean_trunc20cm_mm = 1e3 * truncated / n;
   out.log_density = log_density_sum_ / n;
+  auto share = [](std::size_t part, std::size_t all) {
+    return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all);
+  };
+  out.outliers = share(covered_ - inliers_, covered_);
+  out.within_1_sigma = share(within_1_sigma_, inliers_);
+  out.within_2_sigma = share(within_2_sigma_, inliers_);
   return out;
 }
 

@@ -17,6 +17,10 @@ struct DepthScore {
   double within_1cm = 0, within_2cm = 0, within_5cm = 0;
   double mean_trunc20cm_mm = 0;
   double log_density = 0;  ///< mean log predictive density of the range, 1/m; see DepthScorer
+  double outliers = 0;     ///< share of the pixels where something is predicted that the uniform part explains better
+  /// Shares of the others whose error is within one and two predicted standard deviations: 0.683 and 0.954 of a normal
+  /// distribution.
+  double within_1_sigma = 0, within_2_sigma = 0;
 };
 
 /// Collects errors over frames. The predictive density of a pixel is 0.95 N(measured; expected range, variance along the
@@ -33,7 +37,7 @@ class DepthScorer {
  private:
   std::vector<double> errors_m_;
   double log_density_sum_ = 0;
-  std::size_t covered_ = 0;
+  std::size_t covered_ = 0, inliers_ = 0, within_1_sigma_ = 0, within_2_sigma_ = 0;
 };
 
 }  // namespace ppm

@@ -22,6 +22,7 @@ class PpmBayesUpdate final : public MapEditor {
     add_surface();
     add_holes();
     add_votes();
+    add_excess();
   }
 
   void before(Context&) override { settings_.share(); }
@@ -153,6 +154,19 @@ class PpmBayesUpdate final : public MapEditor {
     params_.add("votes_most", settings_.votes.hits_most)
         .range(1, 65535)
         .doc("Hits of a face count up to here; a low value lets the map follow a scene that changes.");
+  }
+  void add_excess() {
+    params_.add_choice("excess", settings_.excess.learn, {{"learn", true}, {"none", false}})
+        .doc(
+            "Variance beyond that of texels and sensor: learn takes it face by face from how far measurements fall from "
+            "what was predicted, none is the paper's form.");
+    params_.add("excess_sigma", settings_.excess.prior_sigma)
+        .unit("m")
+        .range(0, 1)
+        .doc("Its square root for a face that has not been measured yet.");
+    params_.add("excess_hits", settings_.excess.prior_hits)
+        .range(1, 1000000)
+        .doc("Measurements that this first value counts for.");
   }
   static bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
 

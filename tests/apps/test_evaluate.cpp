@@ -67,7 +67,8 @@ TEST_CASE("evaluate map gives the numbers of the run again") {
   };
   const auto again = evaluate({});
   for (const char* key :
-       {"coverage", "median_mm", "within_1cm", "within_2cm", "within_5cm", "mean_trunc20cm_mm", "log_density"})
+       {"coverage", "median_mm", "within_1cm", "within_2cm", "within_5cm", "mean_trunc20cm_mm", "log_density", "outliers",
+        "within_1_sigma", "within_2_sigma"})
     CHECK(again["holdout"][key].get<double>() == Approx(of_run["holdout"][key].get<double>()).epsilon(1e-3));
   CHECK(again["holdout"]["pixels"] == of_run["holdout"]["pixels"]);
   CHECK(again["holdout"]["poses"] == "reference, aligned");

@@ -27,7 +27,7 @@ struct Wall {
     UpdateView view;
     view.build(frame, nothing);
     view.lateral_px = 0;  // so that nearly head on the variance is the depth's
-    gather_face(view, settings, corner, divisions, mean, variance);
+    gather_face(view, settings, corner, divisions, 0, mean, variance);
   }
 };
 
@@ -136,7 +136,7 @@ TEST_CASE("new texels in the paper's form: zero mean and the sensor's variance, 
     UpdateView view;
     view.build(frame, nothing);
     view.lateral_px = 0;
-    start_texels(view, settings, wall.corner, wall.divisions, kPrior, wall.mean, wall.variance);
+    start_texels(view, settings, wall.corner, wall.divisions, kPrior, 0, wall.mean, wall.variance);
     for (float m : wall.mean) CHECK(m == 0);
     for (float v : wall.variance) CHECK(v == Approx(measured ? 0.004 * 0.004 : kPrior).epsilon(0.05));
   }

@@ -17,6 +17,7 @@ struct Face {
     geometry.first_texel = {2};
     texels.mean.assign(2 + texel_count(n), NAN);
     texels.variance = texels.mean;
+    texels.evidence.resize(1);
     for (std::uint32_t i = 0; i <= n; ++i)
       for (std::uint32_t j = 0; i + j <= n; ++j) {
         const float u = static_cast<float>(i) / static_cast<float>(n),

@@ -127,7 +127,7 @@ class MapExperiment {
         face.mean.push_back(random(-0.1, 0.1));
         face.variance.push_back(random(0.001, 0.1));
       }
-      session.add_face(corner, face.divisions, face.mean, face.variance, {static_cast<std::uint16_t>(face.hits), 0});
+      session.add_face(corner, face.divisions, {face.mean, face.variance}, {static_cast<std::uint16_t>(face.hits), 0});
       mesh.faces[corner] = face;
     }
   }

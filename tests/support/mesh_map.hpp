@@ -31,7 +31,7 @@ std::shared_ptr<const PpmMap> make_map(const TriangleMesh& mesh, const PpmSettin
                     v = static_cast<float>(j) / static_cast<float>(n);
         mean[texel_index(n, i, j)] = mean_of(Eigen::Vector3f((1 - u - v) * a + u * b + v * c));
       }
-    edit.add_face({id[f[0]], id[f[1]], id[f[2]]}, static_cast<std::uint8_t>(n), mean, variance);
+    edit.add_face({id[f[0]], id[f[1]], id[f[2]]}, static_cast<std::uint8_t>(n), {mean, variance});
   }
   return edit.commit();
 }

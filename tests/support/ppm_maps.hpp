@@ -20,7 +20,7 @@ inline std::string digest_of(const Map& map) {
 inline void add_flat_face(PpmEdit& edit, const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, float mean,
                           float variance, FaceEvidence evidence = {}) {
   const std::vector<float> m(texel_count(divisions), mean), v(texel_count(divisions), variance);
-  edit.add_face(ids, divisions, m, v, evidence);
+  edit.add_face(ids, divisions, {m, v}, evidence);
 }
 
 /// A height field over [0, nx*step] x [0, ny*step], two triangles a square, normals upwards; texels 0 with the prior's

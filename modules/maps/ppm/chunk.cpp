@@ -35,7 +35,46 @@ std::int64_t Geometry::bytes() const {
 }
 
 std::int64_t Texels::bytes() const {
-  return static_cast<std::int64_t>(sizeof *this) + bytes_of(mean) + bytes_of(variance) + bytes_of(evidence);
+  return static_cast<std::int64_t>(sizeof *this) + bytes_of(mean) + bytes_of(variance) + bytes_of(color) +
+         bytes_of(color_variance) + bytes_of(evidence);
+}
+
+TexelView TexelArrays::view(std::size_t first, std::size_t count) const {
+  TexelView part{std::span(mean).subspan(first, count), std::span(variance).subspan(first, count)};
+  if (const auto c = channels(); c > 0) {
+    part.color = std::span(color).subspan(c * first, c * count);
+    part.color_variance = std::span(color_variance).subspan(first, count);
+  }
+  return part;
+}
+
+void TexelArrays::append(const TexelView& texels) {
+  auto add = [](std::vector<float>& to, std::span<const float> from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(mean, texels.mean);
+  add(variance, texels.variance);
+  add(color, texels.color);
+  add(color_variance, texels.color_variance);
+}
+
+void TexelArrays::move_down(std::size_t from, std::size_t to, std::size_t count) {
+  auto move = [&](std::vector<float>& values, std::size_t per_texel) {
+    std::copy_n(values.data() + per_texel * from, per_texel * count, values.data() + per_texel * to);
+  };
+  move(mean, 1);
+  move(variance, 1);
+  if (const auto c = channels(); c > 0) {
+    move(color, c);
+    move(color_variance, 1);
+  }
+}
+
+void TexelArrays::truncate(std::size_t count) {
+  if (const auto c = channels(); c > 0) {
+    color.resize(c * count);
+    color_variance.resize(count);
+  }
+  mean.resize(count);
+  variance.resize(count);
 }
 
 std::uint64_t next_geometry_id() {

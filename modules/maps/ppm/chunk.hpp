@@ -1,7 +1,9 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,12 +44,38 @@ std::uint64_t next_geometry_id();
 struct FaceEvidence {
   std::uint16_t hits = 0;     ///< pixels that measured this face
   std::uint16_t through = 0;  ///< pixels that measured something behind it
+  /// m^2 along the normal: how much more the face's measurements scatter about what was predicted than texels and
+  /// sensor account for (poses, shape below a texel). A running mean, signed; see added_variance().
+  float excess = 0;
+  /// What excess adds to the variance of the described surface, m^2.
+  float added_variance() const { return std::max(excess, 0.0f); }
+};
+
+/// Texels side by side, read only: of one face in the order of texel_index, or of a chunk.
+struct TexelView {
+  std::span<const float> mean, variance;
+  std::span<const float> color = {}, color_variance = {};
+};
+
+/// Values of texels. Colour is there in maps with colour channels, empty in others.
+struct TexelArrays {
+  std::vector<float> mean;            ///< [T] m along the face normal
+  std::vector<float> variance;        ///< [T] m^2; the prior's where never observed
+  std::vector<float> color;           ///< [T*C] interleaved: intensity or R, G, B as the camera encodes them, 0 .. 1
+  std::vector<float> color_variance;  ///< [T] of each channel alike: all are seen at once, by like sensors
+
+  std::size_t size() const { return mean.size(); }
+  std::size_t channels() const { return mean.empty() ? 0 : color.size() / mean.size(); }
+  TexelView view(std::size_t first, std::size_t count) const;
+  void append(const TexelView& texels);
+  /// Texels from, from + 1, .. become to, to + 1, ..; to <= from.
+  void move_down(std::size_t from, std::size_t to, std::size_t count);
+  /// Drops the texels from `count` on.
+  void truncate(std::size_t count);
 };
 
 /// The texture of a chunk: texels lie on a triangular grid over each face, corners and edges included.
-struct Texels {
-  std::vector<float> mean;             ///< [T] m along the face normal
-  std::vector<float> variance;         ///< [T] m^2; the prior's where never observed
+struct Texels : TexelArrays {
   std::vector<FaceEvidence> evidence;  ///< [F]
   std::int64_t bytes() const;
 };

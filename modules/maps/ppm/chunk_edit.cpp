@@ -86,8 +86,7 @@ void remove_faces(Geometry& geometry, Texels& texels, std::span<const std::uint3
       continue;
     }
     const std::uint32_t from = geometry.first_texel[f], count = texel_count(geometry.divisions[f]);
-    std::copy_n(texels.mean.begin() + from, count, texels.mean.begin() + texel);
-    std::copy_n(texels.variance.begin() + from, count, texels.variance.begin() + texel);
+    texels.move_down(from, texel, count);
     texels.evidence[kept] = texels.evidence[f];
     geometry.face[kept] = geometry.face[f];
     geometry.divisions[kept] = geometry.divisions[f];
@@ -99,8 +98,7 @@ void remove_faces(Geometry& geometry, Texels& texels, std::span<const std::uint3
   geometry.divisions.resize(kept);
   geometry.first_texel.resize(kept);
   texels.evidence.resize(kept);
-  texels.mean.resize(texel);
-  texels.variance.resize(texel);
+  texels.truncate(texel);
 }
 
 void insert_vertices(Geometry& geometry, std::span<const NewVertex> vertices) {
@@ -142,9 +140,8 @@ void append_faces(Geometry& geometry, Texels& texels, std::span<const NewFace> f
     added.push_back(static_cast<std::uint32_t>(geometry.face.size()));
     geometry.face.push_back(corner);
     geometry.divisions.push_back(f.divisions);
-    geometry.first_texel.push_back(static_cast<std::uint32_t>(texels.mean.size()));
-    texels.mean.insert(texels.mean.end(), f.mean.begin(), f.mean.end());
-    texels.variance.insert(texels.variance.end(), f.variance.begin(), f.variance.end());
+    geometry.first_texel.push_back(static_cast<std::uint32_t>(texels.size()));
+    texels.append(f.texels);
     texels.evidence.push_back(f.evidence);
   }
   open_with(geometry.open_edge, sorted_edges(geometry, added));

@@ -19,7 +19,7 @@ struct NewFace {
   std::array<std::uint32_t, 3> id;
   std::uint8_t divisions = 1;
   FaceEvidence evidence;
-  std::span<const float> mean, variance;
+  TexelView texels;
 };
 struct NewVertex {
   std::uint32_t id = 0;

@@ -2,12 +2,27 @@
 
 #include <algorithm>
 
-namespace ppm {
+#include "modules/maps/ppm/texel_update.hpp"
 
-std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view,
-                                   const std::vector<std::uint8_t>& classes) {
+namespace ppm {
+namespace {
+
+/// Squared distance of a measurement from the surface predicted at its own pixel, minus its predicted variance, m^2.
+float surplus(const UpdateView& view, std::size_t p, float lateral_px) {
+  const float along = view.normal[p].dot(view.point[p]);
+  const float off = along - view.offset[p];
+  const float cosine = std::min(std::abs(along) / view.point[p].norm(), 1.0f);
+  const float lateral = lateral_px * view.depth[p] * std::abs(view.inv_fx);
+  return off * off - view.prediction->variance[p] - variance_along_normal(view.sigma[p], cosine, lateral);
+}
+
+}  // namespace
+
+std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes,
+                                   float lateral_px) {
   struct Votes {
     std::uint16_t seen = 0, hits = 0, through = 0;
+    float surplus = 0;
   };
   std::vector<std::vector<Votes>> votes(map.table().size());  // by chunk and face; empty for chunks that no ray met
   const Prediction& seen = *view.prediction;
@@ -17,14 +32,29 @@ std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view,
     if (chunk.empty()) chunk.resize(map.table()[seen.chunk[p]].geometry->face.size());
     Votes& v = chunk[seen.face[p]];
     v.seen = 1;
-    v.hits += (classes[p] & kOwnHit) != 0;
+    if (classes[p] & kOwnHit) {
+      ++v.hits;
+      v.surplus += surplus(view, p, lateral_px);
+    }
     v.through += (classes[p] & kBehind) != 0;
   }
   std::vector<FaceTally> tallies;
   for (std::uint32_t c = 0; c < votes.size(); ++c)
     for (std::uint32_t f = 0; f < votes[c].size(); ++f)
-      if (votes[c][f].seen) tallies.push_back({{c, f}, votes[c][f].hits, votes[c][f].through});
+      if (const Votes& v = votes[c][f]; v.seen) tallies.push_back({{c, f}, v.hits, v.through, v.surplus});
   return tallies;
+}
+
+void learn_excess(const std::vector<FaceTally>& tallies, const ExcessSettings& settings, PpmEdit& edit) {
+  if (!settings.learn) return;
+  for (const auto& t : tallies) {
+    if (t.hits == 0) continue;
+    FaceEvidence& e = edit.texels(t.face.chunk).evidence[t.face.face];
+    const auto hits = static_cast<float>(t.hits);
+    const float observed = t.surplus / hits + e.added_variance();  // the prediction counted the excess already
+    const float gain = hits / (static_cast<float>(e.hits + settings.prior_hits) + hits);
+    e.excess += gain * (observed - e.excess);
+  }
 }
 
 std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const VoteSettings& settings, PpmEdit& edit) {

@@ -13,10 +13,13 @@ struct FaceTally {
   FaceRef face;
   int hits = 0;     ///< pixels that measured it
   int through = 0;  ///< pixels that measured something behind it
+  /// m^2: over the hits, squared distance from the predicted surface minus the variance predicted for it, summed.
+  float surplus = 0;
 };
 
-/// Faces that at least one ray met, ascending, with their votes.
-std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes);
+/// Faces that at least one ray met, ascending, with their votes. lateral_px: as in TexelSettings.
+std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes,
+                                   float lateral_px);
 
 struct VoteSettings {
   float through_per_hit = 2;  ///< a face goes when it was seen through more often than so many times its hits ...
@@ -26,6 +29,19 @@ struct VoteSettings {
 
 /// Adds the votes to the evidence of the faces; returns those that have lost it, ascending. They are not removed yet.
 std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const VoteSettings& settings, PpmEdit& edit);
+
+/// How a face learns its excess variance, FaceEvidence::excess.
+struct ExcessSettings {
+  bool learn = true;           ///< false: it stays 0, the paper's form
+  float prior_sigma = 0.005f;  ///< m, of a face without hits
+  int prior_hits = 20;         ///< hits that the prior counts for
+  /// What a new face starts with, m^2.
+  float prior() const { return learn ? prior_sigma * prior_sigma : 0.0f; }
+};
+
+/// Moves the excess of the faces towards the surplus of this frame, as the mean over all their hits. Before cast_votes():
+/// it reads the hits of the frames before.
+void learn_excess(const std::vector<FaceTally>& tallies, const ExcessSettings& settings, PpmEdit& edit);
 
 /// Marks the pixels [px] whose predicted face is in `faces` (ascending).
 void mark_pixels(const UpdateView& view, const std::vector<FaceRef>& faces, std::vector<std::uint8_t>& marked);

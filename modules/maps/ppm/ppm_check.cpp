@@ -42,12 +42,19 @@ void check_vertices(std::size_t chunk, const Geometry& geometry, std::uint32_t v
   }
 }
 
-void check_texels(std::size_t chunk, const Geometry& geometry, const Texels& texels) {
+void check_texels(std::size_t chunk, const Geometry& geometry, const Texels& texels, std::size_t channels) {
   std::size_t count = 0;
   for (auto n : geometry.divisions) count += texel_count(n);
   PPM_CHECK(
       texels.mean.size() == count && texels.variance.size() == count && texels.evidence.size() == geometry.face.size(),
       "chunk {}: texels do not fit its faces", chunk);
+  PPM_CHECK(texels.color.size() == channels * count && texels.color_variance.size() == (channels > 0 ? count : 0),
+            "chunk {}: colours do not fit its texels", chunk);
+  for (float c : texels.color) PPM_CHECK(std::isfinite(c), "chunk {}: a colour is not finite", chunk);
+  for (float v : texels.color_variance)
+    PPM_CHECK(std::isfinite(v) && v > 0, "chunk {}: the variance of a colour is {}", chunk, v);
+  for (const auto& e : texels.evidence)
+    PPM_CHECK(std::isfinite(e.excess), "chunk {}: the excess variance of a face is {}", chunk, e.excess);
   for (std::size_t t = 0; t < count; ++t)
     PPM_CHECK(std::isfinite(texels.mean[t]) && std::isfinite(texels.variance[t]) && texels.variance[t] > 0,
               "chunk {} texel {}: mean {} variance {}", chunk, t, texels.mean[t], texels.variance[t]);
@@ -107,7 +114,7 @@ void PpmMap::check() const {
     const Geometry& geometry = *table_[c].geometry;
     check_vertices(c, geometry, next_vertex_id_);
     check_faces(c, geometry, settings_);
-    check_texels(c, geometry, *table_[c].texels);
+    check_texels(c, geometry, *table_[c].texels, static_cast<std::size_t>(settings_.color_channels));
     check_derived(c, geometry, table_.cell(c), *this);
   }
   check_edges(*this);

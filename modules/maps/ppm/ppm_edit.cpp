@@ -16,7 +16,7 @@ struct StagedFace {
   std::array<std::uint32_t, 3> id;
   std::uint8_t divisions;
   FaceEvidence evidence;
-  std::size_t first_texel;  // in Staged::mean and Staged::variance
+  std::size_t first_texel;  // in Staged::texels
 };
 struct StagedMove {
   Eigen::Vector3f from, to;
@@ -49,7 +49,7 @@ int cell_distance(const Cell& a, const Cell& b) {
 struct PpmEdit::Staged {
   std::unordered_map<std::uint32_t, Eigen::Vector3f> vertex;  // new and used ones, by id; never iterated
   std::vector<StagedFace> faces;
-  std::vector<float> mean, variance;
+  TexelArrays texels;
   std::map<std::uint32_t, ChunkChange> chunks;  // by chunk number
   std::map<std::uint32_t, StagedMove> moves;    // by vertex id
 };
@@ -84,10 +84,8 @@ class PpmEdit::Commit {
       auto chunk = map_.table_.find(cell);
       if (chunk == ChunkTable<PpmChunk>::kNone)
         chunk = map_.table_.add(cell, {Cow<Geometry>::make(), Cow<Texels>::make()});
-      const std::size_t count = texel_count(f.divisions);
-      staged_.chunks[chunk].added.push_back({f.id, f.divisions, f.evidence,
-                                             std::span<const float>(staged_.mean).subspan(f.first_texel, count),
-                                             std::span<const float>(staged_.variance).subspan(f.first_texel, count)});
+      staged_.chunks[chunk].added.push_back(
+          {f.id, f.divisions, f.evidence, staged_.texels.view(f.first_texel, texel_count(f.divisions))});
     }
   }
 
@@ -189,15 +187,18 @@ void PpmEdit::use_vertex(std::uint32_t id, const Eigen::Vector3f& position) {
   staged_->vertex.emplace(id, position);
 }
 
-void PpmEdit::add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, std::span<const float> mean,
-                       std::span<const float> variance, FaceEvidence evidence) {
+void PpmEdit::add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, const TexelView& texels,
+                       FaceEvidence evidence) {
   PPM_CHECK(divisions >= 1 && divisions <= map_->settings_.max_divisions, "{} divisions", divisions);
-  PPM_CHECK(mean.size() == texel_count(divisions) && variance.size() == mean.size(),
-            "{} and {} texels for {} divisions", mean.size(), variance.size(), divisions);
+  const std::size_t count = texel_count(divisions);
+  const auto channels = static_cast<std::size_t>(map_->settings_.color_channels);
+  PPM_CHECK(texels.mean.size() == count && texels.variance.size() == count, "{} and {} texels for {} divisions",
+            texels.mean.size(), texels.variance.size(), divisions);
+  PPM_CHECK(texels.color.size() == channels * count && texels.color_variance.size() == (channels > 0 ? count : 0),
+            "{} values of colour for {} texels with {} channels", texels.color.size(), count, channels);
   for (auto id : ids) PPM_CHECK(staged_->vertex.contains(id), "vertex {} is not of this session", id);
-  staged_->faces.push_back({ids, divisions, evidence, staged_->mean.size()});
-  staged_->mean.insert(staged_->mean.end(), mean.begin(), mean.end());
-  staged_->variance.insert(staged_->variance.end(), variance.begin(), variance.end());
+  staged_->faces.push_back({ids, divisions, evidence, staged_->texels.size()});
+  staged_->texels.append(texels);
 }
 
 void PpmEdit::remove_face(std::uint32_t chunk, std::uint32_t face) {

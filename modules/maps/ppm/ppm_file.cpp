@@ -22,7 +22,7 @@ namespace ppm {
 namespace {
 
 constexpr std::string_view kMagic = "PPMMAP\r\n";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHashLength = 32;
 constexpr float kFarthest = 1e6f;  // m; of a coordinate
 
@@ -141,6 +141,8 @@ void write_chunk(const PpmChunk& chunk, const Cell& cell, AtomicFile& file) {
   payload.add(geometry.divisions);
   payload.add(chunk.texels->mean);
   payload.add(chunk.texels->variance);
+  payload.add(chunk.texels->color);
+  payload.add(chunk.texels->color_variance);
   payload.add(chunk.texels->evidence);
   payload.write(file);
 }
@@ -174,6 +176,8 @@ Texels read_texels(RecordView& record) {
   Texels texels;
   record.take(texels.mean);
   record.take(texels.variance);
+  record.take(texels.color);
+  record.take(texels.color_variance);
   record.take(texels.evidence);
   return texels;
 }
@@ -206,6 +210,7 @@ class PpmReader {
     settings.texel_size_m = header.take<double>();
     settings.prior_sigma_m = header.take<double>();
     settings.max_divisions = header.take<std::int32_t>();
+    settings.color_channels = header.take<std::int32_t>();
     auto map = std::make_shared<PpmMap>(settings);
     map->next_vertex_id_ = header.take<std::uint32_t>();
     const auto chunks = header.take<std::uint64_t>();
@@ -240,6 +245,7 @@ void save_ppm(const PpmMap& map, const std::filesystem::path& path) {
   header.add(map.settings().texel_size_m);
   header.add(map.settings().prior_sigma_m);
   header.add(static_cast<std::int32_t>(map.settings().max_divisions));
+  header.add(static_cast<std::int32_t>(map.settings().color_channels));
   header.add(map.vertex_ids());
   header.add(static_cast<std::uint64_t>(map.table().size()));
   header.write(file);

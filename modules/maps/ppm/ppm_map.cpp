@@ -11,6 +11,8 @@ PpmMap::PpmMap(const PpmSettings& settings) : settings_(settings) {
   PPM_CHECK(settings.cell_size_m > 0 && settings.texel_size_m > 0 && settings.prior_sigma_m > 0,
             "cell {} m, texel {} m, prior {} m", settings.cell_size_m, settings.texel_size_m, settings.prior_sigma_m);
   PPM_CHECK(settings.max_divisions >= 1 && settings.max_divisions <= 255, "{} divisions", settings.max_divisions);
+  PPM_CHECK(settings.color_channels == 0 || settings.color_channels == 1 || settings.color_channels == 3,
+            "{} channels of colour", settings.color_channels);
 }
 
 Cell PpmMap::cell_of(const Eigen::Vector3f& p) const {
@@ -58,6 +60,7 @@ void PpmMap::digest(Digest& digest) const {
   digest.add(settings_.texel_size_m);
   digest.add(settings_.prior_sigma_m);
   digest.add(settings_.max_divisions);
+  digest.add(settings_.color_channels);
   digest.add(next_vertex_id_);
   digest.add(table_.size());
   for (std::size_t i = 0; i < table_.size(); ++i) {
@@ -71,6 +74,8 @@ void PpmMap::digest(Digest& digest) const {
     digest.add(geometry.divisions);
     digest.add(texels.mean);
     digest.add(texels.variance);
+    digest.add(texels.color);
+    digest.add(texels.color_variance);
     digest.add(texels.evidence);
   }
 }

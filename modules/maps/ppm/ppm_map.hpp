@@ -14,6 +14,7 @@ struct PpmSettings {
   double texel_size_m = 0.02;   ///< wanted distance between texels
   double prior_sigma_m = 0.05;  ///< standard deviation of an unobserved texel's offset
   int max_divisions = 64;
+  int color_channels = 0;  ///< of the texture beside the offset: 0, 1 (intensity) or 3 (RGB)
 };
 
 /// A probabilistic polygonal mesh: triangles with, per texel, mean and variance of the surface's offset along the face
@@ -24,7 +25,8 @@ struct PpmSettings {
 /// Source: paper, section 3.
 class PpmMap final : public Map {
  public:
-  /// An empty map. The settings must be positive, max_divisions at most 255 (InternalError).
+  /// An empty map. The settings must be positive, max_divisions at most 255, color_channels 0, 1 or 3
+  /// (InternalError).
   explicit PpmMap(const PpmSettings& settings);
   std::string_view kind() const override { return "ppm"; }
   MapStats stats() const override;

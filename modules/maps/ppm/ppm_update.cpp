@@ -8,8 +8,8 @@ namespace {
 /// Hands new faces to the edit session, with texels that have seen this frame.
 class FaceWriter {
  public:
-  FaceWriter(const UpdateView& view, const TexelSettings& texels, Boundary& boundary, PpmEdit& edit)
-      : view_(view), texels_(texels), boundary_(boundary), edit_(edit), used_(boundary.vertex.size(), 0) {}
+  FaceWriter(const UpdateView& view, const UpdateSettings& settings, Boundary& boundary, PpmEdit& edit)
+      : view_(view), texels_(settings.texels), excess_(settings.excess.prior()), boundary_(boundary), edit_(edit), used_(boundary.vertex.size(), 0) {}
 
   void write(const RimFace& face) {
     std::array<std::uint32_t, 3> ids;
@@ -22,9 +22,9 @@ class FaceWriter {
     const auto n = edit_.map().divisions_for(corner[0], corner[1], corner[2]);
     mean_.resize(texel_count(n));
     variance_.resize(texel_count(n));
-    start_texels(view_, texels_, corner, n, static_cast<float>(map.prior_sigma_m * map.prior_sigma_m), mean_,
+    start_texels(view_, texels_, corner, n, static_cast<float>(map.prior_sigma_m * map.prior_sigma_m), excess_, mean_,
                  variance_);
-    edit_.add_face(ids, static_cast<std::uint8_t>(n), mean_, variance_);
+    edit_.add_face(ids, static_cast<std::uint8_t>(n), {mean_, variance_}, {0, 0, excess_});
   }
 
  private:
@@ -40,6 +40,7 @@ class FaceWriter {
 
   const UpdateView& view_;
   const TexelSettings& texels_;
+  float excess_;
   Boundary& boundary_;
   PpmEdit& edit_;
   std::vector<std::uint8_t> used_;
@@ -74,7 +75,8 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   classify_pixels(view, settings.gate, settings.classify_sigmas, {}, classes);
 
   PpmEdit edit(std::move(map));
-  const auto tallies = tally_faces(edit.map(), view, classes);
+  const auto tallies = tally_faces(edit.map(), view, classes, settings.texels.lateral_px);
+  learn_excess(tallies, settings.excess, edit);
   const std::vector<FaceRef> removed = cast_votes(tallies, settings.votes, edit);
   std::vector<FaceRef> kept;
   for (const auto& t : tallies)
@@ -96,7 +98,7 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   const auto made = faces.size();
   fill_notches(view, classes, settings.notches, boundary, faces);
   fill_holes(view, settings.holes, boundary, faces);
-  FaceWriter writer(view, settings.texels, boundary, edit);
+  FaceWriter writer(view, settings, boundary, edit);
   for (const auto& f : faces) writer.write(f);
   if (counts)
     *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made,

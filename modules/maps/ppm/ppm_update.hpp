@@ -19,6 +19,7 @@ struct UpdateSettings {
   int open_radius = 2;  ///< px, of the opening that leaves thin strips of wanted pixels for later; 0 = none
   int thin_every = 2;   ///< frames: so often thin strips are let through; 0 = never
   VoteSettings votes;
+  ExcessSettings excess;
   TexelSettings texels;
   NewSurfaceSettings surface;
   NotchSettings notches;

@@ -11,6 +11,7 @@ struct FacePlane {
   Eigen::Vector3f normal;
   float offset;
   float texel_area;  // m^2, that one node stands for
+  float excess;      // m^2
 };
 
 /// The residuals of the four pixels around (x, y), weighted bilinearly; false where less than half of the weight is
@@ -43,7 +44,7 @@ void gather_node(const UpdateView& view, const TexelSettings& settings, const Fa
   if (!view.measured(nearest)) return;
   const float cosine = std::max(UpdateView::facing(plane.normal, node), settings.gate.least_cosine);
   const float sigma = view.sigma[nearest];
-  const float limit = settings.gate_sigmas * settings.gate.spread(sigma, cosine, variance);
+  const float limit = settings.gate_sigmas * settings.gate.spread(sigma, cosine, variance + plane.excess);
   float offset = 0;
   if (!interpolate(view, plane, image.x(), image.y(), mean, limit, offset)) return;
   const float pixel = image.z() * view.inv_fx;
@@ -63,7 +64,8 @@ void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::s
   const auto t = geometry.first_texel[f] + nearest_texel(geometry.divisions[f], seen.bary[2 * p], seen.bary[2 * p + 1]);
   Texels& texels = edit.texels(seen.chunk[p]);
   const float offset = normal.dot(view.point[p] - view.relative(geometry.position[geometry.face[f][0]]));
-  const float limit = settings.gate_sigmas * settings.gate.spread(view.sigma[p], cosine, texels.variance[t]);
+  const float excess = texels.evidence[f].added_variance();
+  const float limit = settings.gate_sigmas * settings.gate.spread(view.sigma[p], cosine, texels.variance[t] + excess);
   if (std::abs(offset - texels.mean[t]) > limit) return;
   const float pixel = view.depth[p] * std::abs(view.inv_fx);
   fuse(texels.mean[t], texels.variance[t], offset,
@@ -78,12 +80,12 @@ float variance_along_normal(float sigma, float cosine, float lateral) {
 }
 
 void gather_face(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
-                 std::uint32_t divisions, std::span<float> mean, std::span<float> variance) {
+                 std::uint32_t divisions, float excess, std::span<float> mean, std::span<float> variance) {
   const Eigen::Vector3f e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
   const Eigen::Vector3f cross = e1.cross(e2);
   const float twice_area = cross.norm();
   const auto n = static_cast<float>(divisions);
-  const FacePlane plane{cross / twice_area, cross.dot(corner[0]) / twice_area, twice_area / (n * n)};
+  const FacePlane plane{cross / twice_area, cross.dot(corner[0]) / twice_area, twice_area / (n * n), excess};
   if (plane.offset >= 0) return;  // seen from behind
   std::size_t t = 0;
   for (std::uint32_t i = 0; i <= divisions; ++i)
@@ -94,10 +96,12 @@ void gather_face(const UpdateView& view, const TexelSettings& settings, const st
 }
 
 void start_texels(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
-                  std::uint32_t divisions, float prior_variance, std::span<float> mean, std::span<float> variance) {
+                  std::uint32_t divisions, float prior_variance, float excess, std::span<float> mean,
+                  std::span<float> variance) {
   std::fill(mean.begin(), mean.end(), 0.0f);
   std::fill(variance.begin(), variance.end(), prior_variance);
-  if (settings.new_texels == NewTexels::measured) return gather_face(view, settings, corner, divisions, mean, variance);
+  if (settings.new_texels == NewTexels::measured) 
+    return gather_face(view, settings, corner, divisions, excess, mean, variance);
   const Eigen::Vector3f centroid = (corner[0] + corner[1] + corner[2]) / 3;
   const Eigen::Vector3f image = view.project(centroid);
   const int x = static_cast<int>(std::lround(image.x())), y = static_cast<int>(std::lround(image.y()));
@@ -124,7 +128,8 @@ void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& clas
     gather_face(
         view, settings,
         {view.relative(geometry.position[i]), view.relative(geometry.position[j]), view.relative(geometry.position[k])},
-        geometry.divisions[f], {&texels.mean[first], count}, {&texels.variance[first], count});
+        geometry.divisions[f], texels.evidence[f].added_variance(), {&texels.mean[first], count},
+        {&texels.variance[first], count});
   }
 }
 
