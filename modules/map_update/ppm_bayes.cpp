@@ -163,10 +163,16 @@ class PpmBayesUpdate final : public MapEditor {
     params_.add("excess_sigma", settings_.excess.prior_sigma)
         .unit("m")
         .range(0, 1)
-        .doc("Its square root for a face that has not been measured yet.");
+        .doc(
+            "Its square root for the first faces of a map; later ones start with the mean over the faces in view.");
     params_.add("excess_hits", settings_.excess.prior_hits)
         .range(1, 1000000)
-        .doc("Measurements that this first value counts for.");
+        .doc("Measurements that a face's first value counts for.");
+    params_.add("excess_views", settings_.excess.least_views)
+        .range(0, 65535)
+        .doc(
+            "A face learns only after about so many frames have seen it: frames that follow each other share the error of "
+            "their poses.");
   }
   static bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
 

@@ -8,18 +8,18 @@ namespace ppm {
 namespace {
 
 /// Squared distance of a measurement from the surface predicted at its own pixel, minus its predicted variance, m^2.
-float surplus(const UpdateView& view, std::size_t p, float lateral_px) {
+float surplus(const UpdateView& view, std::size_t p) {
   const float along = view.normal[p].dot(view.point[p]);
   const float off = along - view.offset[p];
   const float cosine = std::min(std::abs(along) / view.point[p].norm(), 1.0f);
-  const float lateral = lateral_px * view.depth[p] * std::abs(view.inv_fx);
+  const float lateral = view.lateral_px * view.depth[p] * std::abs(view.inv_fx);
   return off * off - view.prediction->variance[p] - variance_along_normal(view.sigma[p], cosine, lateral);
 }
 
 }  // namespace
 
-std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes,
-                                   float lateral_px) {
+std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view,
+                                   const std::vector<std::uint8_t>& classes) {
   struct Votes {
     std::uint16_t seen = 0, hits = 0, through = 0;
     float surplus = 0;
@@ -34,7 +34,7 @@ std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, co
     v.seen = 1;
     if (classes[p] & kOwnHit) {
       ++v.hits;
-      v.surplus += surplus(view, p, lateral_px);
+      v.surplus += surplus(view, p);
     }
     v.through += (classes[p] & kBehind) != 0;
   }
@@ -45,16 +45,22 @@ std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, co
   return tallies;
 }
 
-void learn_excess(const std::vector<FaceTally>& tallies, const ExcessSettings& settings, PpmEdit& edit) {
-  if (!settings.learn) return;
+float learn_excess(const std::vector<FaceTally>& tallies, const ExcessSettings& settings, PpmEdit& edit) {
+  if (!settings.learn) return 0;
+  const auto prior_hits = static_cast<float>(settings.prior_hits);
+  float sum = prior_hits * settings.prior_sigma * settings.prior_sigma, weight = prior_hits;
   for (const auto& t : tallies) {
     if (t.hits == 0) continue;
     FaceEvidence& e = edit.texels(t.face.chunk).evidence[t.face.face];
+    if (e.hits < settings.least_views * t.hits) continue;
     const auto hits = static_cast<float>(t.hits);
     const float observed = t.surplus / hits + e.added_variance();  // the prediction counted the excess already
-    const float gain = hits / (static_cast<float>(e.hits + settings.prior_hits) + hits);
+    const float gain = hits / (prior_hits + static_cast<float>(e.hits) + hits);
     e.excess += gain * (observed - e.excess);
+    sum += hits * e.added_variance();
+    weight += hits;
   }
+  return sum / weight;
 }
 
 std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const VoteSettings& settings, PpmEdit& edit) {

@@ -17,9 +17,8 @@ struct FaceTally {
   float surplus = 0;
 };
 
-/// Faces that at least one ray met, ascending, with their votes. lateral_px: as in TexelSettings.
-std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes,
-                                   float lateral_px);
+/// Faces that at least one ray met, ascending, with their votes.
+std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes);
 
 struct VoteSettings {
   float through_per_hit = 2;  ///< a face goes when it was seen through more often than so many times its hits ...
@@ -33,15 +32,17 @@ std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const Vot
 /// How a face learns its excess variance, FaceEvidence::excess.
 struct ExcessSettings {
   bool learn = true;           ///< false: it stays 0, the paper's form
-  float prior_sigma = 0.005f;  ///< m, of a face without hits
-  int prior_hits = 20;         ///< hits that the prior counts for
-  /// What a new face starts with, m^2.
-  float prior() const { return learn ? prior_sigma * prior_sigma : 0.0f; }
+  float prior_sigma = 0.005f;  ///< m, what the first faces of a map start with
+  int prior_hits = 100;        ///< hits that a face's start counts for
+  /// A face learns from a frame once it has been hit so many times as often as in that frame: images taken one after
+  /// another share the error of their poses, and agree with what they made more than later ones will.
+  int least_views = 25;
 };
 
 /// Moves the excess of the faces towards the surplus of this frame, as the mean over all their hits. Before cast_votes():
-/// it reads the hits of the frames before.
-void learn_excess(const std::vector<FaceTally>& tallies, const ExcessSettings& settings, PpmEdit& edit);
+/// it reads the hits of the frames before. Returns what new faces start with, m^2: the mean over the hits of this frame,
+/// since faces that are seen together have poses and sensor in common; the settings' own where there are few.
+float learn_excess(const std::vector<FaceTally>& tallies, const ExcessSettings& settings, PpmEdit& edit);
 
 /// Marks the pixels [px] whose predicted face is in `faces` (ascending).
 void mark_pixels(const UpdateView& view, const std::vector<FaceRef>& faces, std::vector<std::uint8_t>& marked);

@@ -8,8 +8,8 @@ namespace {
 /// Hands new faces to the edit session, with texels that have seen this frame.
 class FaceWriter {
  public:
-  FaceWriter(const UpdateView& view, const UpdateSettings& settings, Boundary& boundary, PpmEdit& edit)
-      : view_(view), texels_(settings.texels), excess_(settings.excess.prior()), boundary_(boundary), edit_(edit), used_(boundary.vertex.size(), 0) {}
+  FaceWriter(const UpdateView& view, const TexelSettings& texels, float excess, Boundary& boundary, PpmEdit& edit)
+      : view_(view), texels_(texels), excess_(excess), boundary_(boundary), edit_(edit), used_(boundary.vertex.size(), 0) {}
 
   void write(const RimFace& face) {
     std::array<std::uint32_t, 3> ids;
@@ -75,8 +75,8 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   classify_pixels(view, settings.gate, settings.classify_sigmas, {}, classes);
 
   PpmEdit edit(std::move(map));
-  const auto tallies = tally_faces(edit.map(), view, classes, settings.texels.lateral_px);
-  learn_excess(tallies, settings.excess, edit);
+  const auto tallies = tally_faces(edit.map(), view, classes);
+  const float excess = learn_excess(tallies, settings.excess, edit);
   const std::vector<FaceRef> removed = cast_votes(tallies, settings.votes, edit);
   std::vector<FaceRef> kept;
   for (const auto& t : tallies)
@@ -98,7 +98,7 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   const auto made = faces.size();
   fill_notches(view, classes, settings.notches, boundary, faces);
   fill_holes(view, settings.holes, boundary, faces);
-  FaceWriter writer(view, settings, boundary, edit);
+  FaceWriter writer(view, settings.texels, excess, boundary, edit);
   for (const auto& f : faces) writer.write(f);
   if (counts)
     *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made,

@@ -42,7 +42,8 @@ inline void fuse(float& mean, float& variance, float offset, float measured_vari
 }
 
 /// The gather form for one face, of the map or new. corner: relative to the view's centre, in winding order; excess: m^2,
-/// the face's added_variance(), noise of every measurement; mean, variance [texel_count(divisions)] are updated. Each node takes the distance of the four measured points around its
+/// the face's added_variance(): it widens the gate, and is no noise of a texel, which would then forget how much better
+/// near views are; mean, variance [texel_count(divisions)] are updated. Each node takes the distance of the four measured points around its
 /// image from the face's plane, weighted bilinearly, of those within the gate (so none from beyond a depth jump);
 /// nothing where they have less than half of the weight. Where texels are finer than pixels, one measurement reaches
 /// several: its variance grows by the ratio of areas, so that near and far views mix rightly.
