@@ -44,7 +44,7 @@ std::shared_ptr<const PpmMap> patchwork(std::uint64_t seed, double sigma_mean) {
     std::vector<float> mean(texel_count(n)), variance(texel_count(n));
     for (auto& m : mean) m = static_cast<float>(sigma_mean * rng.normal());
     for (auto& v : variance) v = static_cast<float>(1e-4 * (0.1 + rng.uniform()));
-    edit.add_face({id[a], id[b], id[c]}, n, mean, variance);
+    edit.add_face({id[a], id[b], id[c]}, n, {mean, variance});
   };
   for (std::uint32_t y = 0; y < kSide; ++y)
     for (std::uint32_t x = 0; x < kSide; ++x) {

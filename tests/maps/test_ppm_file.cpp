@@ -31,7 +31,8 @@ std::shared_ptr<const PpmMap> bumpy_map() {
     for (auto& m : texels.mean) m = static_cast<float>(rng.normal() * 0.01);
     for (auto& v : texels.variance) v = static_cast<float>(1e-4 + 1e-3 * rng.uniform());
     for (auto& e : texels.evidence)
-      e = {static_cast<std::uint16_t>(rng.below(1000)), static_cast<std::uint16_t>(rng.below(9))};
+      e = {static_cast<std::uint16_t>(rng.below(1000)), static_cast<std::uint16_t>(rng.below(9)),
+           static_cast<float>(rng.normal() * 1e-4)};
   }
   edit.remove_face(0, 1);
   return edit.commit();
@@ -46,6 +47,38 @@ std::string refusal(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+TEST_CASE("colours come back from a file, and move with their faces") {
+  test::TempFolder dir;
+  PpmSettings settings;
+  settings.color_channels = 3;
+  PpmEdit edit(std::make_shared<const PpmMap>(settings));
+  std::array<std::uint32_t, 4> id{};
+  for (std::size_t k = 0; k < 4; ++k)
+    id[k] = edit.add_vertex({static_cast<float>(k & 1) * 0.1f, static_cast<float>(k >> 1) * 0.1f, 0.5f});
+  const std::vector<float> mean(3, 0.0f), variance(3, 1e-4f), color_variance{0.1f, 0.2f, 0.3f};
+  auto shades = [](float base) {
+    std::vector<float> c(9);
+    for (std::size_t i = 0; i < 9; ++i) c[i] = base + 0.01f * static_cast<float>(i);
+    return c;
+  };
+  const auto dark = shades(0.1f), light = shades(0.8f);
+  edit.add_face({id[0], id[1], id[2]}, 1, {mean, variance, dark, color_variance});
+  edit.add_face({id[1], id[3], id[2]}, 1, {mean, variance, light, color_variance});
+  CHECK_THROWS_AS(edit.add_face({id[1], id[3], id[2]}, 1, {mean, variance}), InternalError);
+  auto map = edit.commit();
+  map->check();
+  save_ppm(*map, dir / "map.ppm");
+  const auto back = load_ppm(dir / "map.ppm");
+  CHECK(digest_of(*back) == digest_of(*map));
+  PpmEdit removal(back);
+  removal.remove_face(0, 0);
+  const auto rest = removal.commit();
+  rest->check();
+  const Texels& texels = *rest->table()[0].texels;
+  CHECK(texels.color == light);
+  CHECK(texels.color_variance == color_variance);
+}
 
 TEST_CASE("a map comes back from its file exactly, and can be edited on") {
   test::TempFolder dir;

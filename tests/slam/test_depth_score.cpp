@@ -55,6 +55,17 @@ TEST_CASE("depth score of five pixels, by hand") {
   const double expected = std::log(0.95 * gaussian(0.005, v) + 0.005) + std::log(0.95 * gaussian(0.015, v) + 0.005) +
                           std::log(0.005) + std::log(0.1);
   CHECK(s.log_density == Approx(expected / 4).epsilon(1e-3));
+  CHECK(s.outliers == Approx(1.0 / 3));  // the pixel that is 50 standard deviations off
+  CHECK(s.within_1_sigma == 0.5);
+  CHECK(s.within_2_sigma == 1);
+}
+
+TEST_CASE("no pixel is calibrated where all are outliers") {
+  const auto frame = row_of({2});
+  ppm::DepthScorer scorer;
+  scorer.add(frame, facing(frame, {3}), 1);
+  CHECK(scorer.score().outliers == 1);
+  CHECK(scorer.score().within_1_sigma == 0);
 }
 
 TEST_CASE("a miss counts in the median") {
