@@ -126,4 +126,17 @@ std::string GraphBuilder::never_given(const std::string& need) const {
   return fmt::format(", which no node gives; modules that do: {}", fmt::join(modules, ", "));
 }
 
+/// Checkpoints that are asked for must be possible.
+void GraphBuilder::check_map_kinds(const Config& file) {
+  if (graph_.checkpoint_every_ == 0) return;
+  for (std::size_t i = 0; i < graph_.nodes_.size(); ++i) {
+    for (const auto& facet : facets_[i].gives) {
+      if (!facet.starts_with("map.") || graph_.map_kinds_.contains(facet.substr(4))) continue;
+      report(file.find("checkpoint_every")->place(),
+             fmt::format("checkpoints cannot keep the maps of node '{}': no module says how maps of kind '{}' are saved",
+                         graph_.nodes_[i].name, facet.substr(4)));
+    }
+  }
+}
+
 }  // namespace ppm

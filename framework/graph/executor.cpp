@@ -2,17 +2,15 @@
 
 #include <algorithm>
 
-#include "framework/core/timing.hpp"
 #include "framework/graph/error_context.hpp"
 #include "framework/graph/particle_loop.hpp"
 
 namespace ppm {
 
 RunSummary Executor::run(std::int64_t max_frames, const std::atomic<bool>& stop) {
-  summary_ = {};
-  open_nodes();
+  if (!opened_) open_nodes();
   const std::int64_t expected = std::min(expected_frames(), max_frames);
-  Stopwatch watch;
+  watch_.reset();
   bool ended = false;
   while (!ended && !stop && summary_.frames < max_frames) {
     ended = !tick_frame(summary_.frames);
@@ -20,15 +18,16 @@ RunSummary Executor::run(std::int64_t max_frames, const std::atomic<bool>& stop)
     ++summary_.frames;
     if (on_frame) on_frame(summary_.frames, expected);
   }
-  summary_.wall_s = watch.seconds();
   summary_.interrupted = stop && !ended && summary_.frames < max_frames;
+  if (summary_.interrupted && summary_.frames > 0 && on_stop) on_stop();
+  summary_.wall_s = wall_before_s_ + watch_.seconds();
   if (summary_.frames > 0) tick_at_end(summary_.frames - 1);
   close_nodes();
   return summary_;
 }
 
 void Executor::open_nodes() {
-  contexts_.clear();
+  opened_ = true;
   for (const Node& node : graph_.nodes_) {
     contexts_.push_back(context_);
     contexts_.back().enter(node.name);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "framework/core/record_file.hpp"
+#include "framework/core/timing.hpp"
 #include "framework/graph/graph.hpp"
 #include "framework/slam/particle_set.hpp"
 
@@ -19,11 +21,12 @@ struct NodeTimes {
   std::vector<double> ms;
 };
 
-/// What a run gives back.
+/// What a run gives back. Of a run that went on from a checkpoint: the whole, with the part before.
 struct RunSummary {
   std::int64_t frames = 0;
-  double wall_s = 0;  ///< of the frames, without open() and close()
+  double wall_s = 0;  ///< of the frames and of what is done between them, without open() and close()
   bool interrupted = false;
+  std::vector<std::int64_t> resumed;  ///< frames that were done when the run went on, once for each time
   std::map<std::string, NodeTimes> nodes;
 };
 
@@ -34,8 +37,15 @@ class Executor {
   Executor(Graph& graph, Context& context) : graph_(graph), context_(context) {}
   /// Called after each frame with (frames done, frames expected or 0).
   std::function<void(std::int64_t, std::int64_t)> on_frame;
+  /// Called where `stop` ends the run, after at least one frame and before the nodes that run at the end.
+  std::function<void()> on_stop;
 
   RunSummary run(std::int64_t max_frames, const std::atomic<bool>& stop);
+  /// Writes all that run() needs to go on after the frames that are done. Valid in on_frame and on_stop.
+  void save(RecordFileWriter& file) const;
+  /// Opens the nodes and puts them, the belief and the metrics into the state that save() wrote: run() goes on from
+  /// there. Throws what opening throws, and DataError where the state does not fit.
+  void load(RecordFileReader& file);
   const ParticleSet& belief() const { return *graph_.belief_; }
 
  private:
@@ -49,12 +59,20 @@ class Executor {
   /// Empties the outputs, so that a module that forgets to set one is found out; gives what was there.
   static std::vector<std::pair<PortBase*, std::shared_ptr<const void>>> take_outputs(const Node& node);
   static void pass_through(const Node& node);
+  // executor_state.cpp
+  bool prediction_stands() const;
+  std::map<std::string, PortBase*> values_for_the_end() const;
+  void save_values(RecordFileWriter& file) const;
+  void load_values(RecordFileReader& file);
   std::int64_t expected_frames() const;
 
   Graph& graph_;
   Context& context_;
   std::vector<Context> contexts_;  // one a node, copies of context_: nodes of one loop run at the same time
   RunSummary summary_;
+  double wall_before_s_ = 0;  // of the parts of the run before it went on
+  Stopwatch watch_;           // of this part
+  bool opened_ = false;
 };
 
 }  // namespace ppm

@@ -27,6 +27,16 @@ std::vector<std::pair<std::filesystem::path, Place>> Graph::plugins(const Config
 }
 
 std::string Graph::effective_yaml() const {
+  Config root = effective();
+  if (checkpoint_every_ > 0) root.set("checkpoint_every", {}, Config::scalar(std::to_string(checkpoint_every_), {}));
+  return root.to_yaml();
+}
+
+std::string Graph::experiment_yaml() const {
+  return effective().to_yaml();
+}
+
+Config Graph::effective() const {
   auto text = [](std::string value) { return Config::scalar(std::move(value), {}); };
   Config root;
   root.set("name", {}, text(name_));
@@ -46,7 +56,7 @@ std::string Graph::effective_yaml() const {
     if (!node.module->params().specs().empty()) entry.set("params", {}, node.module->params().effective());
   }
   root.set("nodes", {}, Config::sequence(std::move(nodes), {}));
-  return root.to_yaml();
+  return root;
 }
 
 }  // namespace ppm

@@ -45,6 +45,10 @@ class Graph {
 
   const std::string& name() const { return name_; }
   std::uint64_t seed() const { return seed_; }
+  /// Frames between checkpoints; 0: none.
+  std::int64_t checkpoint_every() const { return checkpoint_every_; }
+  /// How the maps that its modules make are kept in checkpoints.
+  const MapCodecs& map_kinds() const { return map_kinds_; }
   std::vector<Node>& nodes() { return nodes_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   /// The module of the first node that is a T, or null.
@@ -56,14 +60,19 @@ class Graph {
   }
   /// The graph as it runs: every parameter of every node with its value in force. Loading it gives the same graph.
   std::string effective_yaml() const;
+  /// The same without what has no influence on results (checkpoint_every): what a run and its continuation must agree in.
+  std::string experiment_yaml() const;
   /// The `plugins:` of a graph file, to be loaded before build(). A relative path starts at the file's folder.
   static std::vector<std::pair<std::filesystem::path, Place>> plugins(const Config& file);
 
  private:
   friend class GraphBuilder;
   friend class Executor;
+  Config effective() const;
   std::string name_;
   std::uint64_t seed_ = 0;
+  std::int64_t checkpoint_every_ = 0;
+  MapCodecs map_kinds_;
   std::vector<std::filesystem::path> plugins_;  // absolute
   std::vector<Node> nodes_;
   std::vector<std::unique_ptr<std::shared_ptr<const void>>> slots_;

@@ -26,6 +26,7 @@ class GraphBuilder {
   // read_graph.cpp: keys, nodes, modules and their parameters
   void override_tree(Config& file, const std::vector<Override>& overrides);
   void read_file(const Config& file);
+  std::int64_t read_count(const Config& file, const std::string& key);
   void read_plugins(const Config& list);
   void read_node(const Config& tree);
   void read_node_name(const Config& tree, Node& node);
@@ -49,6 +50,7 @@ class GraphBuilder {
   void enter_node(std::size_t i, std::int64_t frame, FacetState& state);
   std::string missing_facet(std::size_t i, const std::string& need, std::int64_t frame, const FacetState& state) const;
   std::string never_given(const std::string& need) const;
+  void check_map_kinds(const Config& file);
 
   void report(const Place& place, std::string message) { mistakes_.push_back({place, std::move(message)}); }
 

@@ -128,6 +128,10 @@ std::string graph_schema(const Registry& registry) {
   Json properties{
       {"name", {{"type", "string"}, {"description", "Name of the experiment."}}},
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"description", "Seed of all random numbers. Default: 0."}}},
+      {"checkpoint_every",
+       {{"type", "integer"},
+        {"minimum", 0},
+        {"description", "Frames between checkpoints, from which `ppm run --resume` goes on. Default: 0, none."}}},
       {"plugins",
        {{"type", "array"}, {"items", {{"type", "string"}}}, {"description", "Libraries of further modules."}}},
       {"nodes",

@@ -23,18 +23,30 @@ Harness::Harness(const Registry& registry, const std::string& module, const std:
 }
 
 bool Harness::tick() {
-  if (opened_) {
-    ++context_.frame_;
-  } else {
-    module_->open(context_);
-    opened_ = true;
-  }
+  if (!opened_) module_->open(context_);
+  if (ticked_) ++context_.frame_;
+  opened_ = ticked_ = true;
   module_->tick(context_);
   return !context_.ended_;
 }
 
 void Harness::close() {
   module_->close(context_);
+}
+
+std::string Harness::save() const {
+  RecordWriter out;
+  module_->save(out);
+  return out.bytes();
+}
+
+void Harness::load(const std::string& state, std::int64_t frames) {
+  module_->open(context_);
+  opened_ = true;
+  context_.frame_ = frames;
+  RecordReader in(state, "the test's state", "the module");
+  module_->load(in);
+  in.finish();
 }
 
 std::shared_ptr<const void>* Harness::slot(PortDirection direction, const std::string& port, std::type_index type) {

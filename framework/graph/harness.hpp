@@ -33,6 +33,10 @@ class Harness {
   /// Runs open() before the first call, then tick() for the next frame. False when the module said end of stream.
   bool tick();
   void close();
+  /// The module's state as a checkpoint keeps it, and its way back: load() opens the module; the next tick() is that of frame
+  /// `frames`.
+  std::string save() const;
+  void load(const std::string& state, std::int64_t frames);
 
  private:
   /// Throws InternalError where the module has no such port.
@@ -44,7 +48,7 @@ class Harness {
   ParticleSet belief_;
   std::unique_ptr<Module> module_;
   std::map<std::pair<PortDirection, std::string>, std::shared_ptr<const void>> slots_;
-  bool opened_ = false;
+  bool opened_ = false, ticked_ = false;
 };
 
 }  // namespace ppm

@@ -22,4 +22,20 @@ std::string Metrics::to_csv() const {
   return text;
 }
 
+void Metrics::save(RecordWriter& out) const {
+  out.add(static_cast<std::uint64_t>(columns_.size()));
+  for (const auto& [name, rows] : columns_) {
+    out.add(name);
+    out.add(rows);
+  }
+}
+
+void Metrics::load(RecordReader& in) {
+  columns_.clear();
+  for (auto n = in.take<std::uint64_t>(); n > 0; --n) {
+    const auto name = in.take<std::string>();
+    in.take(columns_[name]);
+  }
+}
+
 }  // namespace ppm

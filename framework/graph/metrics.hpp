@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "framework/core/record.hpp"
+
 namespace ppm {
 
 /// Numbers by frame: a table whose columns appear as they are first recorded. Only the executor's thread writes.
@@ -21,6 +23,9 @@ class Metrics {
   const std::map<std::string, std::vector<Row>>& columns() const { return columns_; }
   /// CSV with a header, one line a frame; an empty field where nothing was recorded.
   std::string to_csv() const;
+
+  void save(RecordWriter& out) const;
+  void load(RecordReader& in);
 
  private:
   std::map<std::string, std::vector<Row>> columns_;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "framework/config/params.hpp"
+#include "framework/core/record.hpp"
 #include "framework/graph/context.hpp"
 #include "framework/graph/port.hpp"
 
@@ -22,6 +23,13 @@ class Module {
   virtual void tick(Context& context) = 0;
   /// After the last frame, also after Ctrl-C; not after an error.
   virtual void close(Context&) {}
+
+  /// What the module keeps from frame to frame in its own members and needs to go on after this frame as if the run had
+  /// not stopped; for checkpoints, between frames. Parameters, the belief and what can be made again (caches) are no part of it.
+  virtual void save(RecordWriter&) const {}
+  /// Takes back what save() wrote, all of it: after open(), before the first frame of a run that goes on. Throws
+  /// DataError (in.fail) where it does not fit what open() found.
+  virtual void load(RecordReader&) {}
 
   Params& params() { return params_; }
   const Params& params() const { return params_; }

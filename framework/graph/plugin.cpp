@@ -58,7 +58,12 @@ void load_plugin(const std::filesystem::path& library, const Place& place, Regis
                                            taken->origin));
     }
   }
+  for (const auto& [kind, codec] : added.map_kinds()) {
+    if (registry.map_kinds().contains(kind))
+      throw ConfigError(place, fmt::format("plug-in {}: maps of kind '{}' are known already", file.string(), kind));
+  }
   for (const auto* info : added.all()) registry.add(*info);
+  for (const auto& [kind, codec] : added.map_kinds()) registry.add_map_kind(kind, codec);
 }
 
 }  // namespace ppm

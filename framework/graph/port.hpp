@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/core/error.hpp"
+#include "framework/core/record.hpp"
 
 namespace ppm {
 
@@ -13,7 +14,8 @@ class Module;
 class ParticleSet;
 struct Frame;
 
-/// Name of a port's type for messages and pages. Specialise for each type that travels on an edge.
+/// Name of a port's type for messages and pages. Specialise for each type that travels on an edge. Such a type is one that a
+/// RecordWriter takes, so that checkpoints can keep it.
 template <class T>
 struct PortType;
 template <>
@@ -62,6 +64,9 @@ class PortBase {
   std::string_view type_name_;
   const PortBase* identity_ = nullptr;
   std::shared_ptr<const void>* slot_ = nullptr;  // of the edge; set when the graph is built
+  // Out ports: the value as it is kept in a checkpoint.
+  void (*save_value_)(RecordWriter&, const void*) = nullptr;
+  std::shared_ptr<const void> (*load_value_)(RecordReader&) = nullptr;
 };
 
 /// An input: the value that an output above made in this frame. Immutable, shared.
@@ -89,6 +94,8 @@ class Out : public PortBase {
   Out(Module* owner, std::string name, std::string doc, const In<T>* identity = nullptr)
       : PortBase(owner, PortDirection::out, std::move(name), std::move(doc), typeid(T), PortType<T>::name) {
     identity_ = identity;
+    save_value_ = [](RecordWriter& out, const void* value) { out.add(*static_cast<const T*>(value)); };
+    load_value_ = [](RecordReader& in) -> std::shared_ptr<const void> { return std::make_shared<const T>(in.take<T>()); };
   }
   void set(std::shared_ptr<const T> value) {
     PPM_CHECK(slot_, "output '{}' is not wired to a graph", name_);

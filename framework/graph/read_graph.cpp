@@ -50,6 +50,7 @@ Graph GraphBuilder::build(Config file, const std::vector<Override>& overrides) {
   wire();
   check_source(file);
   check_facets();
+  check_map_kinds(file);
   if (mistakes_.empty()) return std::move(graph_);
   auto key = [](const Diagnostic& d) { return std::tie(d.place.file, d.place.line, d.place.column); };
   std::stable_sort(mistakes_.begin(), mistakes_.end(), [&](auto& a, auto& b) { return key(a) < key(b); });
@@ -57,7 +58,7 @@ Graph GraphBuilder::build(Config file, const std::vector<Override>& overrides) {
 }
 
 void GraphBuilder::read_file(const Config& file) {
-  check_keys(file, "the graph", {"name", "seed", "plugins", "nodes"});
+  check_keys(file, "the graph", {"name", "seed", "checkpoint_every", "plugins", "nodes"});
   if (auto* name = required(file, "the graph", "name", Config::Kind::scalar)) {
     graph_.name_ = name->text();
     // It names the folder of the results.
@@ -67,15 +68,9 @@ void GraphBuilder::read_file(const Config& file) {
              fmt::format("graph name '{}': letters, digits, '_', '-' and '.', not '-' or '.' first", graph_.name_));
     }
   }
-  if (auto* seed = file.find("seed")) {
-    std::int64_t value = 0;
-    Params params;
-    params.add("seed", value).range(0, std::numeric_limits<double>::infinity()).doc("Seed.");
-    Config only;
-    only.set("seed", seed->place(), *seed);
-    params.parse(&only, "the graph", file.place(), mistakes_);
-    graph_.seed_ = static_cast<std::uint64_t>(value);
-  }
+  graph_.seed_ = static_cast<std::uint64_t>(read_count(file, "seed"));
+  graph_.checkpoint_every_ = read_count(file, "checkpoint_every");
+  graph_.map_kinds_ = registry_.map_kinds();
   if (auto* plugins = file.find("plugins")) read_plugins(*plugins);
   for (const auto& [path, place] : Graph::plugins(file)) graph_.plugins_.push_back(path);
   auto* nodes = required(file, "the graph", "nodes", Config::Kind::sequence);
@@ -83,6 +78,18 @@ void GraphBuilder::read_file(const Config& file) {
   if (nodes->items().empty()) report(nodes->place(), "the graph has no nodes");
   graph_.nodes_.reserve(nodes->items().size());
   for (const auto& node : nodes->items()) read_node(node);
+}
+
+std::int64_t GraphBuilder::read_count(const Config& file, const std::string& key) {
+  const Config* written = file.find(key);
+  std::int64_t value = 0;
+  if (!written) return value;
+  Params params;
+  params.add(key, value).range(0, std::numeric_limits<double>::infinity());
+  Config only;
+  only.set(key, written->place(), *written);
+  params.parse(&only, "the graph", file.place(), mistakes_);
+  return value;
 }
 
 void GraphBuilder::read_plugins(const Config& list) {

@@ -12,6 +12,10 @@ void Registry::add(ModuleInfo info) {
   PPM_CHECK(added, "module '{}' is registered already ({})", it->first, it->second.origin);
 }
 
+void Registry::add_map_kind(const std::string& kind, std::shared_ptr<const MapCodec> codec) {
+  PPM_CHECK(map_kinds_.emplace(kind, std::move(codec)).second, "maps of kind '{}' have a codec already", kind);
+}
+
 const ModuleInfo* Registry::find(const std::string& name) const {
   auto it = modules_.find(name);
   return it == modules_.end() ? nullptr : &it->second;

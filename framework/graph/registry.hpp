@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/graph/module.hpp"
+#include "framework/slam/map_codec.hpp"
 
 namespace ppm {
 
@@ -33,11 +34,20 @@ class Registry {
   /// In alphabetical order.
   std::vector<const ModuleInfo*> all() const;
   std::vector<std::string> names() const;
+  /// Says how maps of a kind are kept in checkpoints: called by one of the modules that make them. Throws InternalError
+  /// where that was said already.
+  template <class Codec>
+  void add_map_kind(const std::string& kind) {
+    add_map_kind(kind, std::make_shared<const Codec>());
+  }
+  void add_map_kind(const std::string& kind, std::shared_ptr<const MapCodec> codec);
+  const MapCodecs& map_kinds() const { return map_kinds_; }
   /// What the following add() calls are recorded as.
   void set_origin(std::string origin) { origin_ = std::move(origin); }
 
  private:
   std::map<std::string, ModuleInfo> modules_;
+  MapCodecs map_kinds_;
   std::string origin_ = "built in";
 };
 

@@ -98,6 +98,24 @@ void FrameSource::tick(Context& context) {
   frame.set(std::move(next));
 }
 
+void FrameSource::save(RecordWriter& out) const {
+  out.add(sequence_->size());
+  out.add(static_cast<std::uint64_t>(selection_.mapped.size()));
+  out.add(static_cast<std::uint64_t>(next_));
+  out.add(last_stamp_s_);
+}
+
+void FrameSource::load(RecordReader& in) {
+  const auto images = in.take<std::int64_t>();
+  const auto selected = in.take<std::uint64_t>();
+  if (images != sequence_->size() || selected != selection_.mapped.size())
+    throw DataError(sequence_->name(), fmt::format("has changed: it had {} images, {} of them to be mapped, and has {} and {}",
+                                                   images, selected, sequence_->size(), selection_.mapped.size()));
+  next_ = in.take<std::uint64_t>();
+  in.take(last_stamp_s_);
+  prefetch();
+}
+
 Frame FrameSource::full_frame(std::int64_t index) const {
   return load(index, 1);
 }

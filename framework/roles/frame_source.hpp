@@ -25,6 +25,9 @@ class FrameSource : public Module {
 
   void open(Context& context) override;
   void tick(Context& context) override;
+  void save(RecordWriter& out) const override;
+  /// Throws DataError where the sequence has not the images that it had.
+  void load(RecordReader& in) override;
 
   /// Indices of the images in [first, last] that were held out, ascending. Valid after open().
   const std::vector<std::int64_t>& held_out() const { return selection_.held_out; }

@@ -37,6 +37,8 @@ class Weighting : public ParticleModule {
   using ParticleModule::tick;
   void tick(Context& context, std::size_t particle, int worker) override;
   void after(Context& context) override;
+  void save(RecordWriter& out) const override { out.add(warned_); }
+  void load(RecordReader& in) override { in.take(warned_); }
   /// after() normalises.
   bool ends_loop() const override { return true; }
   const ParticleSet& particles() const override { return *belief; }

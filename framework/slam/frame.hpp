@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "framework/core/record.hpp"
 #include "framework/core/se3.hpp"
 #include "framework/slam/camera.hpp"
 
@@ -27,5 +28,8 @@ struct Frame {
 
   bool valid(int pixel) const { return depth[static_cast<std::size_t>(pixel)] == depth[static_cast<std::size_t>(pixel)]; }
 };
+
+void save(RecordWriter& out, const Frame& frame);
+void load(RecordReader& in, Frame& frame);
 
 }  // namespace ppm

@@ -2,48 +2,19 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
-#include <typeindex>
 #include <utility>
 #include <vector>
 
 #include "framework/core/error.hpp"
 #include "framework/core/se3.hpp"
+#include "framework/slam/column.hpp"
 #include "framework/slam/map.hpp"
 #include "framework/slam/prediction.hpp"
 #include "framework/slam/trajectory.hpp"
 
 namespace ppm {
-
-/// values[i] becomes values[ancestors[i]].
-template <class T>
-void gather(std::vector<T>& values, const std::vector<std::uint32_t>& ancestors) {
-  std::vector<T> next;
-  next.reserve(ancestors.size());
-  for (auto a : ancestors) next.push_back(values[a]);
-  values = std::move(next);
-}
-
-/// A column of a ParticleSet whose type only its owner knows.
-class ColumnBase {
- public:
-  virtual ~ColumnBase() = default;
-  virtual void gather(const std::vector<std::uint32_t>& ancestors) = 0;
-  virtual void resize(std::size_t n) = 0;
-  virtual std::type_index type() const = 0;
-};
-
-/// State per particle that resampling moves with the particle. Bytes: T should be small or a handle.
-template <class T>
-class Column final : public ColumnBase {
- public:
-  std::vector<T> values;
-  T& operator[](std::size_t i) { return values[i]; }
-  const T& operator[](std::size_t i) const { return values[i]; }
-  void resize(std::size_t n) override { values.resize(n); }
-  std::type_index type() const override { return typeid(T); }
-  void gather(const std::vector<std::uint32_t>& ancestors) override { ppm::gather(values, ancestors); }
-};
 
 /// The belief: weighted hypotheses about path and map, as a structure of arrays, index = particle.
 /// Invariants: all columns have size() entries; log_weight is normalised (log-sum-exp 0) whenever a weighting or resampling
@@ -56,9 +27,13 @@ class ParticleSet {
   std::vector<Trajectory> trajectory;
   std::vector<MapHandle> map;
   std::vector<PredictionHandle> prediction;  ///< null until a prediction node has run in this frame
+  /// Where the source's reference frame lies in the map frame, so that T_map_camera = T_map_world * T_world_camera_ref for exact
+  /// poses: identity where the map started at a reference pose; empty where the first frame has none. Set by map.*.
+  std::optional<Pose> T_map_world = Pose::Identity();
 
   std::size_t size() const { return pose.size(); }
-  /// n particles at one pose with equal weights and one shared map. Drops all paths; typed columns are resized and kept.
+  /// n particles at one pose with equal weights and one shared map, in the reference's frame. Drops all paths; typed columns are
+  /// resized and kept.
   void init(std::size_t n, const Pose& T_map_camera, MapHandle map_handle);
   /// Appends the particle's new pose for a new frame to its path, and drops its prediction, which was of the frame before.
   void extend(std::size_t i, const StampedPose& pose);
@@ -77,7 +52,9 @@ class ParticleSet {
   template <class T>
   Column<T>& column(const std::string& name) {
     auto& slot = columns_[name];
-    if (!slot) {
+    if (auto* saved = dynamic_cast<SavedColumn*>(slot.get())) {
+      slot = saved->as<T>();
+    } else if (!slot) {
       slot = std::make_unique<Column<T>>();
       slot->resize(size());
     }
@@ -85,8 +62,13 @@ class ParticleSet {
     return static_cast<Column<T>&>(*slot);
   }
 
+  // For keeping a belief in a file: see belief_file.hpp.
+  using Columns = std::map<std::string, std::unique_ptr<ColumnBase>>;
+  const Columns& columns() const { return columns_; }
+  void set_columns(Columns columns) { columns_ = std::move(columns); }
+
  private:
-  std::map<std::string, std::unique_ptr<ColumnBase>> columns_;
+  Columns columns_;
 };
 
 /// What is carried from frame to frame.

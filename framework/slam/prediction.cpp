@@ -31,6 +31,26 @@ double Prediction::cosine(std::size_t pixel, const Eigen::Vector3d& direction) c
   return std::max(std::abs(n.dot(direction)), kMinCosine);
 }
 
+namespace {
+
+/// Names every member: with one more the compiler stops here, so that none is forgotten.
+template <class P, class Do>
+void each_member(P& prediction, const Do& act) {
+  auto& [camera, stride, T_map_camera, range, mean, variance, normal, chunk, face, bary] = prediction;
+  act(camera), act(stride), act(T_map_camera), act(range), act(mean), act(variance), act(normal);
+  act(chunk), act(face), act(bary);
+}
+
+}  // namespace
+
+void save(RecordWriter& out, const Prediction& prediction) {
+  each_member(prediction, [&](const auto& member) { out.add(member); });
+}
+
+void load(RecordReader& in, Prediction& prediction) {
+  each_member(prediction, [&](auto& member) { in.take(member); });
+}
+
 std::shared_ptr<Prediction> PredictionPool::take() {
   std::unique_ptr<Prediction> prediction;
   {

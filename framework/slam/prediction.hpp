@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "framework/core/record.hpp"
 #include "framework/core/se3.hpp"
 #include "framework/slam/camera.hpp"
 
@@ -51,6 +52,9 @@ struct Prediction {
     return variance[pixel] / (c * c);
   }
 };
+
+void save(RecordWriter& out, const Prediction& prediction);
+void load(RecordReader& in, Prediction& prediction);
 
 using PredictionHandle = std::shared_ptr<const Prediction>;
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "framework/core/record.hpp"
 #include "framework/core/se3.hpp"
 
 namespace ppm {
@@ -13,6 +14,8 @@ struct StampedPose {
   double stamp_s = 0;
   Pose T_map_camera = Pose::Identity();
 };
+void save(RecordWriter& out, const StampedPose& pose);
+void load(RecordReader& in, StampedPose& pose);
 
 /// A path that shares its past with its siblings: each node points at its parent, copies are one pointer.
 /// Dropping a path frees the nodes that nobody else needs, iteratively (a path of a million frames does not recurse).
@@ -34,6 +37,8 @@ class Trajectory {
   /// All poses, oldest first.
   std::vector<StampedPose> poses() const;
   bool operator==(const Trajectory& other) const { return head_ == other.head_; }
+  /// Paths with the same identity are one path in memory, while a handle to it lives; null where it is empty.
+  const void* identity() const { return head_; }
 
  private:
   struct Node {
@@ -46,5 +51,9 @@ class Trajectory {
   static void release(Node* node);
   Node* head_ = nullptr;
 };
+
+/// Writes paths with the past that they share once, and reads them back sharing it.
+void save_paths(RecordWriter& out, const std::vector<Trajectory>& paths);
+std::vector<Trajectory> load_paths(RecordReader& in);
 
 }  // namespace ppm

@@ -40,14 +40,16 @@ class PpmEmpty final : public Module {
 
   void tick(Context&) override {
     const auto first = frame.get();
-    Pose T_map_camera = Pose::Identity();
-    if (start_ == Start::reference) {
-      if (!first->T_world_camera_ref)
-        throw DataError("the source", first->index, "has no reference pose to start the map at; set `start: identity`");
-      T_map_camera = *first->T_world_camera_ref;
-    }
+    const auto& reference = first->T_world_camera_ref;
+    if (start_ == Start::reference && !reference)
+      throw DataError("the source", first->index, "has no reference pose to start the map at; set `start: identity`");
+    const Pose T_map_camera = start_ == Start::reference ? *reference : Pose::Identity();
     auto& particles = *belief;
     particles.init(static_cast<std::size_t>(particles_), T_map_camera, std::make_shared<const PpmMap>(settings_));
+    if (start_ == Start::identity) {
+      particles.T_map_world.reset();
+      if (reference) particles.T_map_world = reference->inverse();
+    }
     for (std::size_t i = 0; i < particles.size(); ++i)
       particles.extend(i, {first->index, first->stamp_s, T_map_camera});
   }

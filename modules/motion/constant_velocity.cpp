@@ -3,7 +3,7 @@
 #include "framework/graph/registry.hpp"
 #include "framework/slam/frame.hpp"
 #include "framework/slam/particle_set.hpp"
-#include "modules/motion/pose_noise.hpp"
+#include "framework/roles/pose_noise.hpp"
 
 namespace ppm {
 namespace {
@@ -18,7 +18,7 @@ class ConstantVelocity final : public Module {
   InOut<Belief> belief{this, {{"belief"}, {}, {"prediction"}}};
 
   ConstantVelocity() {
-    noise_.declare(params_);
+    noise_.declare(params_, "noise added in each frame");
     params_.add("velocity_decay", velocity_decay_)
         .range(0, 1)
         .doc("Share of the velocity that is kept: 1 is constant velocity, 0 a random walk.");

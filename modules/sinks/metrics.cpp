@@ -33,6 +33,9 @@ class MetricsCsv final : public Module {
     if (memory_every_ > 0 && ticks_++ % memory_every_ == 0) record_memory(context);
   }
 
+  void save(RecordWriter& out) const override { out.add(ticks_); }
+  void load(RecordReader& in) override { in.take(ticks_); }
+
   void close(Context& context) override { write_file(context.output(file_), context.metrics().to_csv()); }
 
  private:

@@ -26,6 +26,15 @@ class TrajectoryTum final : public Module {
     online_.push_back(path_.last());
   }
 
+  void save(RecordWriter& out) const override {
+    save_paths(out, {path_});
+    out.add(online_);
+  }
+  void load(RecordReader& in) override {
+    path_ = load_paths(in).at(0);
+    in.take(online_);
+  }
+
   void close(Context& context) override {
     write_file(context.output(file_), to_tum(path_.poses()));
     write_file(context.output(online_file_), to_tum(online_));

@@ -144,6 +144,24 @@ TEST_CASE("motion by reference is exact without noise, noisy with it, and needs 
                     Catch::Matchers::Contains("frame 13") && Catch::Matchers::Contains("no reference pose"));
 }
 
+TEST_CASE("motion by reference follows a map that starts elsewhere than at the reference") {
+  const Pose first = ppm::se3_exp(5 * some_twist()), second = ppm::se3_exp(7 * some_twist());
+  ppm::Harness init(ppm::test::builtin(), "map.ppm_empty", "{particles: 2, start: identity}");
+  init.input<ppm::Frame>("frame", frame_at(0, 0.0, first));
+  init.tick();
+  ppm::Harness motion(ppm::test::builtin(), "motion.reference_pose");
+  motion.belief() = std::move(init.belief());
+  motion.input<ppm::Frame>("frame", frame_at(1, 0.1, second));
+  motion.tick();
+  CHECK(distance(motion.belief().pose[1], first.inverse() * second) < 1e-15);
+
+  init.input<ppm::Frame>("frame", frame_at(0, 0.0));  // no reference: its place is not known
+  init.tick();
+  motion.belief() = std::move(init.belief());
+  motion.input<ppm::Frame>("frame", frame_at(14, 0.1, second));
+  CHECK_THROWS_WITH(motion.tick(), Catch::Matchers::Contains("frame 14") && Catch::Matchers::Contains("started at"));
+}
+
 TEST_CASE("motion parameters are checked") {
   CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 2 deg}"), ppm::ConfigError);
   CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{sigma_r: -1}"), ppm::ConfigError);

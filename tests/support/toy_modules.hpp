@@ -166,6 +166,36 @@ class ToySink : public Module {
   void close(Context& context) override { note(context, "close"); }
 };
 
+/// Keeps the sum of the numbers, and tells it at the end.
+class ToySum : public Module {
+ public:
+  In<ToyNumber> number{this, "number", "What is summed."};
+  void tick(Context&) override { sum_ += number->value; }
+  void save(RecordWriter& out) const override { out.add(sum_); }
+  void load(RecordReader& in) override { in.take(sum_); }
+  void close(Context& context) override { note(context, fmt::format("total {}", sum_)); }
+
+ private:
+  std::int64_t sum_ = 0;
+};
+
+/// Blows each particle along y, by a wind of its own that changes slowly: state per particle.
+class ToyWind : public ParticleModule {
+ public:
+  InOut<Belief> belief{this, {{"belief"}, {}, {}}};
+  void before(Context&) override { belief->column<double>("wind"); }
+  using ParticleModule::tick;
+  void tick(Context& context, std::size_t i, int) override {
+    auto& wind = belief->column<double>("wind")[i];
+    wind += context.rng("gust", i).normal();
+    Pose next = belief->pose[i];
+    next.translation().y() += wind;
+    belief->correct(i, next);
+  }
+  bool starts_loop() const override { return true; }
+  const ParticleSet& particles() const override { return *belief; }
+};
+
 /// Adds one.
 class ToyPlusOne : public Module {
  public:
@@ -214,6 +244,8 @@ inline Registry toy_registry() {
   r.add<ToyWeigh>("weighting.toy", "Weighs.", "None.");
   r.add<ToyPick>("resampling.toy", "Picks.", "None.");
   r.add<ToySink>("sink.toy", "Notes numbers.", "None.");
+  r.add<ToySum>("sink.toy_sum", "Sums numbers.", "None.");
+  r.add<ToyWind>("refinement.toy_wind", "Blows.", "None.");
   r.add<ToyMapSink>("sink.toy_map", "Reads a map.", "None.");
   r.add<ToyPlusOne>("preprocess.plus_one", "Adds one.", "None.");
   r.add<ToyThrow>("refinement.toy_throw", "Throws.", "None.");

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "framework/config/params.hpp"
 #include "framework/core/rng.hpp"
 #include "framework/core/se3.hpp"
@@ -10,8 +12,8 @@ struct PoseNoise {
   double sigma_t = 0;  ///< m, along each axis
   double sigma_r = 0;  ///< rad, about each axis
 
-  /// Declares the parameters sigma_t and sigma_r, with the values held as defaults.
-  void declare(Params& params);
+  /// Declares the parameters sigma_t and sigma_r, with the values held as defaults. what: "noise added in each frame".
+  void declare(Params& params, const std::string& what);
   /// T_camera_noisy; six draws, translation first.
   Pose draw(Rng rng) const;
 };

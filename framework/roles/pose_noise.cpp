@@ -1,18 +1,18 @@
-#include "modules/motion/pose_noise.hpp"
+#include "framework/roles/pose_noise.hpp"
 
 #include <numbers>
 
 namespace ppm {
 
-void PoseNoise::declare(Params& params) {
+void PoseNoise::declare(Params& params, const std::string& what) {
   params.add("sigma_t", sigma_t)
       .unit("m")
       .range(0, 10)
-      .doc("Standard deviation of the translation noise added in each frame, along each axis of the camera.");
+      .doc(fmt::format("Standard deviation of the translation {}, along each axis of the camera.", what));
   params.add("sigma_r", sigma_r)
       .unit("rad")
       .range(0, std::numbers::pi)
-      .doc("Standard deviation of the rotation noise added in each frame, about each axis of the camera.");
+      .doc(fmt::format("Standard deviation of the rotation {}, about each axis of the camera.", what));
 }
 
 Pose PoseNoise::draw(Rng rng) const {

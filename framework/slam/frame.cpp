@@ -1,0 +1,25 @@
+#include "framework/slam/frame.hpp"
+
+namespace ppm {
+
+namespace {
+
+/// Names every member: with one more the compiler stops here, so that none is forgotten.
+template <class F, class Do>
+void each_member(F& frame, const Do& act) {
+  auto& [index, stamp_s, camera, T_base_camera, depth, sigma, lateral_px, confidence, color, T_world_camera_ref] = frame;
+  act(index), act(stamp_s), act(camera), act(T_base_camera), act(depth), act(sigma), act(lateral_px), act(confidence);
+  act(color), act(T_world_camera_ref);
+}
+
+}  // namespace
+
+void save(RecordWriter& out, const Frame& frame) {
+  each_member(frame, [&](const auto& member) { out.add(member); });
+}
+
+void load(RecordReader& in, Frame& frame) {
+  each_member(frame, [&](auto& member) { in.take(member); });
+}
+
+}  // namespace ppm
