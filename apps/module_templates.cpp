@@ -113,7 +113,7 @@ class NewModule final : public ViewPredictor {
   NewModule() : ViewPredictor("map.ppm") {}
 
   void prepare(const std::vector<const Map*>&, const Workers&) override {}
-  void predict(const Map&, Prediction&, int) const override {}
+  void predict(const Map&, const Rows&, Prediction&, int) const override {}
 };
 
 }  // namespace

@@ -55,7 +55,7 @@ void look(const Map& map, const ViewPredictor& predictor, const HoldoutPoses& po
   view.has_pose = pose.has_value();
   if (!pose) return;
   view.prediction.reset(DepthScorer::sampling_camera(view.frame.camera, kHoldoutStep), 1, *pose);
-  predictor.predict(map, view.prediction, worker);
+  predictor.predict_all(map, view.prediction, worker);
 }
 
 }  // namespace

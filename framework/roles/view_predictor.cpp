@@ -6,6 +6,11 @@
 #include "framework/roles/twins.hpp"
 
 namespace ppm {
+namespace {
+
+constexpr int kBandRows = 16;  // a part of a view for one worker
+
+}  // namespace
 
 ViewPredictor::ViewPredictor(const std::string& map_facet) : belief(this, {{map_facet}, {"prediction"}, {}}) {
   params_.add("stride", stride_).range(1, 64).doc("Predicts each n-th pixel of each n-th row of the frame.");
@@ -19,28 +24,49 @@ void ViewPredictor::before(Context& context) {
     if (seen.insert(map.get()).second) maps.push_back(map.get());
   prepare(maps, context.workers());
 
-  // Views that several particles share are there before the loop; the loop makes each particle's own.
+  // Views that several particles share are there before the loop; the loop makes each particle's own. Where there are
+  // fewer views than would keep the workers busy, all are made here, in parts.
   particles.prediction.assign(particles.size(), nullptr);
   const auto leader = twins(particles, false);
-  std::vector<std::size_t> shared;
-  for (std::size_t i = 0; i < leader.size(); ++i)
-    if (leader[i] != i) shared.push_back(leader[i]);
+  std::vector<std::size_t> views, shared;
+  for (std::size_t i = 0; i < leader.size(); ++i) {
+    if (leader[i] == i)
+      views.push_back(i);
+    else
+      shared.push_back(leader[i]);
+  }
   std::sort(shared.begin(), shared.end());
   shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
-  context.workers().for_each(
-      shared.size(), [&](std::size_t k, int worker) { particles.prediction[shared[k]] = view(shared[k], worker); });
+  const bool few = views.size() < 2 * static_cast<std::size_t>(context.workers().threads());
+  predict_in_bands(few ? views : shared, context.workers());
   for (std::size_t i = 0; i < leader.size(); ++i) particles.prediction[i] = particles.prediction[leader[i]];
+}
+
+void ViewPredictor::predict_in_bands(const std::vector<std::size_t>& particles, const Workers& workers) {
+  std::vector<std::shared_ptr<Prediction>> views(particles.size());
+  workers.for_each(views.size(), [&](std::size_t k, int) { views[k] = blank_view(particles[k]); });
+  if (views.empty()) return;
+  const int rows = views.front()->camera.rows;
+  const auto bands = static_cast<std::size_t>((rows + kBandRows - 1) / kBandRows);
+  workers.for_each(bands * views.size(), [&](std::size_t i, int worker) {
+    const std::size_t k = i / bands;
+    const int first = static_cast<int>(i % bands) * kBandRows;
+    predict(*belief->map[particles[k]], {first, std::min(first + kBandRows, rows)}, *views[k], worker);
+  });
+  for (std::size_t k = 0; k < views.size(); ++k) belief->prediction[particles[k]] = std::move(views[k]);
 }
 
 void ViewPredictor::tick(Context&, std::size_t particle, int worker) {
   auto& prediction = belief->prediction[particle];
-  if (!prediction) prediction = view(particle, worker);
+  if (prediction) return;
+  auto view = blank_view(particle);
+  predict_all(*belief->map[particle], *view, worker);
+  prediction = std::move(view);
 }
 
-PredictionHandle ViewPredictor::view(std::size_t particle, int worker) {
+std::shared_ptr<Prediction> ViewPredictor::blank_view(std::size_t particle) {
   auto out = pool_.take();
   out->reset(frame->camera, stride_, belief->pose[particle]);
-  predict(*belief->map[particle], *out, worker);
   return out;
 }
 

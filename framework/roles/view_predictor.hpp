@@ -19,8 +19,12 @@ class ViewPredictor : public ParticleModule {
   /// Work shared by all views of one map before they are predicted (acceleration structures). The maps are distinct, in
   /// the order of the first particle that has each. Called from one thread.
   virtual void prepare(const std::vector<const Map*>& maps, const Workers& workers) = 0;
-  /// Predicts the view of `map` for out.camera at out.T_map_camera; `out` was reset to misses. Called from any worker.
-  virtual void predict(const Map& map, Prediction& out, int worker) const = 0;
+  /// Predicts some rows of the view of `map` for out.camera at out.T_map_camera; `out` was reset to misses. Called from
+  /// any worker, for other rows of the same view at the same time.
+  virtual void predict(const Map& map, const Rows& rows, Prediction& out, int worker) const = 0;
+  void predict_all(const Map& map, Prediction& out, int worker) const {
+    predict(map, all_rows(out.camera), out, worker);
+  }
 
   void before(Context& context) override;
   using ParticleModule::tick;
@@ -34,8 +38,10 @@ class ViewPredictor : public ParticleModule {
   explicit ViewPredictor(const std::string& map_facet);
 
  private:
+  std::shared_ptr<Prediction> blank_view(std::size_t particle);
+  void predict_in_bands(const std::vector<std::size_t>& particles, const Workers& workers);
+
   int stride_ = 1;
-  PredictionHandle view(std::size_t particle, int worker);
   PredictionPool pool_;
 };
 

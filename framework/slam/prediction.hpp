@@ -11,6 +11,14 @@
 
 namespace ppm {
 
+/// Some rows of an image: first, first + 1, .. end - 1.
+struct Rows {
+  int first = 0, end = 0;
+};
+inline Rows all_rows(const Camera& camera) {
+  return {0, camera.rows};
+}
+
 /// What a camera at a pose should see of a map: one entry a pixel of `camera` (row-major, [rows*cols]).
 /// It is where maps and likelihoods meet: a weighting knows this and no map.
 /// The described surface lies `mean` beyond the element along `normal`; expected_range() is its range along the ray.
@@ -19,7 +27,7 @@ struct Prediction {
   static constexpr float kMiss = std::numeric_limits<float>::infinity();
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  Camera camera;  ///< the predicted image's camera: the frame's, decimated by `stride`
+  Camera camera;   ///< the predicted image's camera: the frame's, decimated by `stride`
   int stride = 1;  ///< frame pixel (stride*x, stride*y) is prediction pixel (x, y)
   Pose T_map_camera = Pose::Identity();
 
@@ -29,20 +37,22 @@ struct Prediction {
   std::vector<float> normal;    ///< [3*pixels] xyz interleaved, unit, map frame, turned towards the camera; 0 at a miss
   std::vector<std::uint32_t> chunk;  ///< the map's chunk hit; kNone = miss
   std::vector<std::uint32_t> face;   ///< the element (PPM: face) within the chunk
-  std::vector<float> bary;  ///< [2*pixels] u, v of the hit: p = (1-u-v) p0 + u p1 + v p2; 0 where elements are no triangles
+  std::vector<float>
+      bary;  ///< [2*pixels] u, v of the hit: p = (1-u-v) p0 + u p1 + v p2; 0 where elements are no triangles
 
   /// Sizes every array for the camera and fills them with misses. Keeps capacity.
   void reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_);
   bool hit(std::size_t pixel) const { return chunk[pixel] != kNone; }
 
-  /// Smallest cosine between ray and normal that is divided by: an offset along the normal moves a grazing hit at most 5 times
-  /// as far along the ray. The first order says nothing useful about flatter views.
+  /// Smallest cosine between ray and normal that is divided by: an offset along the normal moves a grazing hit at most
+  /// 5 times as far along the ray. The first order says nothing useful about flatter views.
   static constexpr double kMinCosine = 0.2;
   /// Unit direction of the pixel's ray, map frame.
   Eigen::Vector3d direction(std::size_t pixel) const;
   /// |normal . direction| of a hit, at least kMinCosine. direction: see direction(pixel).
   double cosine(std::size_t pixel, const Eigen::Vector3d& direction) const;
-  /// Range of the described surface, to first order, m: range - mean / cosine (a positive mean is nearer to the camera).
+  /// Range of the described surface, to first order, m: range - mean / cosine (a positive mean is nearer to the
+  /// camera).
   double expected_range(std::size_t pixel, const Eigen::Vector3d& direction) const {
     return range[pixel] - mean[pixel] / cosine(pixel, direction);
   }

@@ -30,8 +30,8 @@ class PpmBayesUpdate final : public MapEditor {
   MapHandle edit(Context& context, std::size_t particle, MapHandle map, int) override {
     const PredictionHandle seen = belief->prediction[particle];
     PPM_CHECK(seen, "particle {} has no prediction", particle);
-    return update_map(std::static_pointer_cast<const PpmMap>(std::move(map)), *frame, *seen, settings_,
-                      context.frame());
+    return update_map(std::static_pointer_cast<const PpmMap>(std::move(map)), *frame, *seen, settings_, context.frame(),
+                      context.workers());
   }
 
  private:
@@ -158,20 +158,21 @@ class PpmBayesUpdate final : public MapEditor {
   void add_excess() {
     params_.add_choice("excess", settings_.excess.learn, {{"learn", true}, {"none", false}})
         .doc(
-            "Variance beyond that of texels and sensor: learn takes it face by face from how far measurements fall from "
+            "Variance beyond that of texels and sensor: learn takes it face by face from how far measurements fall "
+            "from "
             "what was predicted, none is the paper's form.");
     params_.add("excess_sigma", settings_.excess.prior_sigma)
         .unit("m")
         .range(0, 1)
-        .doc(
-            "Its square root for the first faces of a map; later ones start with the mean over the faces in view.");
+        .doc("Its square root for the first faces of a map; later ones start with the mean over the faces in view.");
     params_.add("excess_hits", settings_.excess.prior_hits)
         .range(1, 1000000)
         .doc("Measurements that a face's first value counts for.");
     params_.add("excess_views", settings_.excess.least_views)
         .range(0, 65535)
         .doc(
-            "A face learns only after about so many frames have seen it: frames that follow each other share the error of "
+            "A face learns only after about so many frames have seen it: frames that follow each other share the error "
+            "of "
             "their poses.");
   }
   static bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }

@@ -63,8 +63,8 @@ class EmbreePredictor final : public ViewPredictor {
     scenes_->update(meshes, workers);
   }
 
-  void predict(const Map& map, Prediction& out, int) const override {
-    trace_view(as_ppm(map), scenes_->of(as_ppm(map)), view_, out);
+  void predict(const Map& map, const Rows& rows, Prediction& out, int) const override {
+    trace_view(as_ppm(map), scenes_->of(as_ppm(map)), view_, rows, out);
   }
 
  private:

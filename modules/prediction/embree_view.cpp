@@ -59,8 +59,8 @@ class ViewTracer {
 
  public:
   ViewTracer(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
-             Prediction& out)
-      : map_(map), scenes_(scenes), options_(options), out_(out) {
+             const Rows& rows, Prediction& out)
+      : map_(map), scenes_(scenes), options_(options), rows_(rows), out_(out) {
     rtcInitIntersectContext(&context_);
     context_.flags = options.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     const Eigen::Matrix3d R = out.T_map_camera.linear();
@@ -87,7 +87,7 @@ class ViewTracer {
     const Camera& camera = out_.camera;
     const auto visible = visible_chunks(map_, camera, out_.T_map_camera);
     std::vector<VisibleChunk> in_tile;
-    for (int y = 0; y < camera.rows; y += kTile)
+    for (int y = rows_.first; y < rows_.end; y += kTile)
       for (int x = 0; x < camera.cols; x += kTile) {
         in_tile.clear();
         for (const auto& v : visible)
@@ -98,7 +98,7 @@ class ViewTracer {
 
  private:
   void trace_tile(int x0, int y0, const std::vector<VisibleChunk>& chunks) {
-    for (int y = y0; y < std::min(y0 + kTile, out_.camera.rows); y += P::rows)
+    for (int y = y0; y < std::min(y0 + kTile, rows_.end); y += P::rows)
       for (int x = x0; x < std::min(x0 + kTile, out_.camera.cols); x += P::cols) {
         start(x, y);
         intersect(x, y, chunks);
@@ -120,7 +120,7 @@ class ViewTracer {
       dir_y[i] = dy * scale;
       dir_z[i] = dz * scale;
     }
-    const int right = out_.camera.cols - x, bottom = out_.camera.rows - y;
+    const int right = out_.camera.cols - x, bottom = rows_.end - y;
     for (int i = 0; i < N; ++i) {
       const bool inside = i % P::cols < right && i / P::cols < bottom;
       valid_[i] = inside ? -1 : 0;
@@ -191,6 +191,7 @@ class ViewTracer {
   const PpmMap& map_;
   const std::vector<const EmbreeScene*>& scenes_;
   const EmbreeViewOptions& options_;
+  const Rows rows_;
   Prediction& out_;
   RTCIntersectContext context_;
   Eigen::Vector3f corner_, per_x_,
@@ -205,16 +206,16 @@ class ViewTracer {
 }  // namespace
 
 void trace_view(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
-                Prediction& out) {
+                const Rows& rows, Prediction& out) {
   switch (options.packet) {
     case 1:
-      return ViewTracer<1>(map, scenes, options, out).trace();
+      return ViewTracer<1>(map, scenes, options, rows, out).trace();
     case 4:
-      return ViewTracer<4>(map, scenes, options, out).trace();
+      return ViewTracer<4>(map, scenes, options, rows, out).trace();
     case 8:
-      return ViewTracer<8>(map, scenes, options, out).trace();
+      return ViewTracer<8>(map, scenes, options, rows, out).trace();
     case 16:
-      return ViewTracer<16>(map, scenes, options, out).trace();
+      return ViewTracer<16>(map, scenes, options, rows, out).trace();
     default:
       PPM_CHECK(false, "packets of {} rays", options.packet);
   }

@@ -15,11 +15,11 @@ struct EmbreeViewOptions {
   bool linear_texels = true;  ///< interpolate texels; otherwise take the nearest
 };
 
-/// Fills `out` (reset to misses; its camera and pose set) with what its camera sees of the map: packets of neighbouring
-/// pixels are traced through the scenes of the chunks whose boxes they may meet, nearest box first, until no box is
-/// nearer than the hits. A pure function of its arguments: the same bytes each time.
-/// scenes: by chunk number, null for an empty chunk.
+/// Fills rows of `out` (reset to misses; its camera and pose set) with what its camera sees of the map: packets of
+/// neighbouring pixels are traced through the scenes of the chunks whose boxes they may meet, nearest box first, until
+/// no box is nearer than the hits. A pure function of its arguments: the same bytes each time, however rows are
+/// grouped. scenes: by chunk number, null for an empty chunk.
 void trace_view(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
-                Prediction& out);
+                const Rows& rows, Prediction& out);
 
 }  // namespace ppm

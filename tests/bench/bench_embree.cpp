@@ -97,7 +97,7 @@ void view(benchmark::State& state, EmbreeViewOptions options, EmbreeOptions scen
   int i = 0;
   for (auto _ : state) {
     out.reset(kCamera, 1, pose(i++ % 20));
-    trace_view(*map, scenes.of(*map), options, out);
+    trace_view(*map, scenes.of(*map), options, all_rows(out.camera), out);
     benchmark::DoNotOptimize(out.range.data());
   }
   std::size_t hits = 0;

@@ -21,7 +21,7 @@ class Mapper {
     scenes_.update({map_.get()}, workers_);
     Prediction p;
     p.reset(camera, 1, T_map_camera);
-    trace_view(*map_, scenes_.of(*map_), EmbreeViewOptions{}, p);
+    trace_view(*map_, scenes_.of(*map_), EmbreeViewOptions{}, all_rows(p.camera), p);
     return p;
   }
 
@@ -46,7 +46,7 @@ class Mapper {
   UpdateCounts add(const Frame& frame) {
     const auto seen = predict(frame.camera, *frame.T_world_camera_ref);
     UpdateCounts counts;
-    map_ = update_map(std::move(map_), frame, seen, settings_, frames_++, &counts);
+    map_ = update_map(std::move(map_), frame, seen, settings_, frames_++, workers_, &counts);
     map_->check();
     return counts;
   }

@@ -7,6 +7,7 @@
 #include "modules/maps/ppm/notch_fill.hpp"
 #include "tests/map_update/views.hpp"
 #include "tests/support/ppm_maps.hpp"
+#include "tests/support/workers.hpp"
 
 using namespace ppm;
 using namespace ppm::test;
@@ -24,7 +25,7 @@ struct Above {
     T.translate(Eigen::Vector3d(0.5, 0.5, 2));
     T.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
     nothing.reset(frame.camera, 1, T);
-    view.build(frame, nothing);
+    view.build(frame, nothing, test::one_worker());
   }
 };
 

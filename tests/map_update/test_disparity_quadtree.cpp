@@ -5,6 +5,7 @@
 #include "framework/core/rng.hpp"
 #include "modules/maps/ppm/disparity_quadtree.hpp"
 #include "tests/map_update/views.hpp"
+#include "tests/support/workers.hpp"
 
 using namespace ppm;
 using namespace ppm::test;
@@ -20,7 +21,7 @@ DisparityImage image_of(const std::function<float(int, int)>& depth, int smooth 
   const Frame frame = frame_of(depth);
   const Prediction nothing = prediction_of([](int, int) { return NAN; });
   UpdateView view;
-  view.build(frame, nothing);
+  view.build(frame, nothing, test::one_worker());
   DisparityImage image;
   image.build(view, std::vector<std::uint8_t>(frame.depth.size(), 1), smooth, 3);
   return image;

@@ -5,6 +5,7 @@
 #include "modules/maps/ppm/pixel_classes.hpp"
 #include "modules/maps/ppm/triangle_test.hpp"
 #include "tests/map_update/views.hpp"
+#include "tests/support/workers.hpp"
 
 using namespace ppm;
 using namespace ppm::test;
@@ -17,9 +18,9 @@ std::vector<std::uint8_t> classes_of(const std::function<float(int, int)>& measu
   const Frame frame = frame_of(measured);
   const Prediction seen = prediction_of(predicted);
   UpdateView view;
-  view.build(frame, seen);
+  view.build(frame, seen, test::one_worker());
   std::vector<std::uint8_t> classes;
-  classify_pixels(view, SurfaceGate{}, 4, gone, classes);
+  classify_pixels(view, SurfaceGate{}, 4, gone, test::one_worker(), classes);
   return classes;
 }
 
@@ -74,7 +75,7 @@ TEST_CASE("a triangle is surface where the measurement lies on it") {
   const Frame frame = frame_of(wall);
   const Prediction none = prediction_of(nothing);
   UpdateView view;
-  view.build(frame, none);
+  view.build(frame, none, test::one_worker());
   std::vector<std::uint8_t> classes(frame.depth.size(), kWanted);
   const std::array<Eigen::Vector2f, 3> pixel{Eigen::Vector2f(30, 20), Eigen::Vector2f(30, 30), Eigen::Vector2f(42, 20)};
   const auto corner = [&](float z0, float z1, float z2) {
@@ -95,7 +96,7 @@ TEST_CASE("a triangle through flying pixels is refused, though the measurement l
   });
   const Prediction none = prediction_of(nothing);
   UpdateView view;
-  view.build(frame, none);
+  view.build(frame, none, test::one_worker());
   const std::vector<std::uint8_t> classes(frame.depth.size(), kWanted);
   const std::array<Eigen::Vector2f, 3> pixel{Eigen::Vector2f(38, 20), Eigen::Vector2f(38, 24), Eigen::Vector2f(42, 20)};
   const std::array<Eigen::Vector3f, 3> corner{view.ray(38, 20) * 1.0f, view.ray(38, 24) * 1.0f,
@@ -110,7 +111,7 @@ TEST_CASE("a steep triangle is surface where the surfaces at its corners are as 
       frame_of([&](int, int y) { return y > 31 ? 0.4f / static_cast<float>(camera.ray(0, y).y()) : NAN; });
   const Prediction none = prediction_of(nothing);
   UpdateView view;
-  view.build(frame, none);
+  view.build(frame, none, test::one_worker());
   const std::vector<std::uint8_t> classes(frame.depth.size(), kWanted);
   const std::array<Eigen::Vector2f, 3> pixel{Eigen::Vector2f(40, 42), Eigen::Vector2f(34, 46), Eigen::Vector2f(46, 46)};
   std::array<Eigen::Vector3f, 3> corner;

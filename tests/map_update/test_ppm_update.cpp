@@ -5,6 +5,7 @@
 #include "modules/builtin.hpp"
 #include "tests/map_update/box_world.hpp"
 #include "tests/map_update/mapper.hpp"
+#include "tests/support/workers.hpp"
 
 using namespace ppm;
 using namespace ppm::test;
@@ -100,13 +101,14 @@ TEST_CASE("with a prediction of every second pixel the update works on that grid
   seen.reset(frame.camera, 2, *frame.T_world_camera_ref);
   UpdateSettings settings;
   settings.share();
-  const auto map = update_map(std::make_shared<const PpmMap>(PpmSettings{}), frame, seen, settings, 0);
+  const auto map =
+      update_map(std::make_shared<const PpmMap>(PpmSettings{}), frame, seen, settings, 0, test::one_worker());
   map->check();
   CHECK(map->stats().faces > 8);
   CHECK(map->stats().faces < 60);  // 40x30 pixels in leaves of 16
   Prediction wrong;
   wrong.reset(frame.camera.decimated(2), 1, *frame.T_world_camera_ref);
-  CHECK_THROWS_AS(update_map(map, frame, wrong, settings, 1), InternalError);
+  CHECK_THROWS_AS(update_map(map, frame, wrong, settings, 1, test::one_worker()), InternalError);
 }
 
 TEST_CASE("an update with nothing new changes no face") {
@@ -175,7 +177,7 @@ TEST_CASE("map_update.ppm_bayes gives the same bytes for 1, 2 and 4 threads, and
         scenes.update({&map}, workers);
         auto seen = std::make_shared<Prediction>();
         seen->reset(small_camera(), 1, h.belief().pose[k]);
-        trace_view(map, scenes.of(map), EmbreeViewOptions{}, *seen);
+        trace_view(map, scenes.of(map), EmbreeViewOptions{}, all_rows(seen->camera), *seen);
         h.belief().prediction[k] = seen;
       }
       h.tick();

@@ -4,6 +4,7 @@
 #include "modules/maps/ppm/texel_update.hpp"
 #include "tests/map_update/views.hpp"
 #include "tests/support/ppm_maps.hpp"
+#include "tests/support/workers.hpp"
 
 using namespace ppm;
 using namespace ppm::test;
@@ -25,7 +26,7 @@ struct Wall {
     TexelSettings settings;
     const Prediction nothing = prediction_of([](int, int) { return NAN; });
     UpdateView view;
-    view.build(frame, nothing);
+    view.build(frame, nothing, test::one_worker());
     view.lateral_px = 0;  // so that nearly head on the variance is the depth's
     gather_face(view, settings, corner, divisions, 0, mean, variance);
   }
@@ -107,13 +108,13 @@ TEST_CASE("scatter: each own hit updates the texel nearest to it, like the close
   const Frame frame = frame_of([](int, int) { return 1.99f; });
   Prediction seen = prediction_of([](int x, int y) { return x == 40 && y == 30 ? 2.0f : NAN; }, kPrior);
   UpdateView view;
-  view.build(frame, seen);
+  view.build(frame, seen, test::one_worker());
   view.lateral_px = 0;
   std::vector<std::uint8_t> classes(frame.depth.size(), 0);
   classes[30 * 80 + 40] = kOwnHit;
   TexelSettings settings;
   settings.form = TexelForm::scatter;
-  update_texels(view, classes, {{0, 0}}, settings, edit);
+  update_texels(view, classes, {{0, 0}}, settings, test::one_worker(), edit);
   const Texels& texels = edit.texels(0);
   const double s2 = 0.004 * 0.004;
   int updated = 0;
@@ -134,7 +135,7 @@ TEST_CASE("new texels in the paper's form: zero mean and the sensor's variance, 
   for (const bool measured : {true, false}) {
     const Frame frame = frame_of([measured](int, int) { return measured ? 1.99f : NAN; });
     UpdateView view;
-    view.build(frame, nothing);
+    view.build(frame, nothing, test::one_worker());
     view.lateral_px = 0;
     start_texels(view, settings, wall.corner, wall.divisions, kPrior, 0, wall.mean, wall.variance);
     for (float m : wall.mean) CHECK(m == 0);

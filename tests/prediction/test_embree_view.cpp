@@ -22,7 +22,19 @@ Prediction view_of(const PpmMap& map, const Camera& camera, const Pose& pose, Em
   scenes.update({&map}, workers);
   Prediction out;
   out.reset(camera, 1, pose);
-  trace_view(map, scenes.of(map), view, out);
+  trace_view(map, scenes.of(map), view, all_rows(out.camera), out);
+  return out;
+}
+
+// The same, rows 16 at a time, last rows first.
+Prediction view_in_bands(const PpmMap& map, const Camera& camera, const Pose& pose) {
+  Workers workers(1);
+  EmbreeScenes scenes(EmbreeOptions{});
+  scenes.update({&map}, workers);
+  Prediction out;
+  out.reset(camera, 1, pose);
+  for (int first = (camera.rows - 1) / 16 * 16; first >= 0; first -= 16)
+    trace_view(map, scenes.of(map), {}, {first, std::min(first + 16, camera.rows)}, out);
   return out;
 }
 
@@ -116,4 +128,16 @@ TEST_CASE("views agree with brute force on a mesh cut into chunks, which leaves 
   compare(*map, kAskew, view, {});
   const Prediction p = view_of(*map, kCamera, kAskew, view);
   for (std::size_t i = 0; i < p.range.size(); ++i) CHECK(p.hit(i));
+}
+
+TEST_CASE("rows traced in bands are the same bytes as rows traced together") {
+  PpmSettings settings;
+  settings.cell_size_m = 0.5;
+  const auto map = make_map(height_field(24, 3.f, [](float x, float y) { return 2.f + 0.2f * x * y; }), settings);
+  const Prediction whole = view_of(*map, kCamera, kAskew), bands = view_in_bands(*map, kCamera, kAskew);
+  CHECK(std::count_if(whole.chunk.begin(), whole.chunk.end(), [](auto c) { return c != Prediction::kNone; }) > 1000);
+  CHECK(bands.range == whole.range);
+  CHECK(bands.mean == whole.mean);
+  CHECK(bands.face == whole.face);
+  CHECK(bands.bary == whole.bary);
 }

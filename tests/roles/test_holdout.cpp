@@ -36,9 +36,9 @@ struct PlaneMap final : Map {
 struct PlanePredictor final : ViewPredictor {
   PlanePredictor() : ViewPredictor("map.plane") {}
   void prepare(const std::vector<const Map*>& maps, const Workers&) override { prepared += maps.size(); }
-  void predict(const Map& map, Prediction& out, int) const override {
+  void predict(const Map& map, const Rows& rows, Prediction& out, int) const override {
     const auto& plane = static_cast<const PlaneMap&>(map).plane;
-    for (int y = 0; y < out.camera.rows; ++y)
+    for (int y = rows.first; y < rows.end; ++y)
       for (int x = 0; x < out.camera.cols; ++x) {
         const auto i = static_cast<std::size_t>(y * out.camera.cols + x);
         out.range[i] = static_cast<float>(plane.range(out.T_map_camera, out.camera.ray(x, y)));

@@ -1,5 +1,6 @@
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "framework/graph/harness.hpp"
 #include "framework/roles/view_predictor.hpp"
@@ -18,9 +19,14 @@ struct ToyView final : ppm::ViewPredictor {
   void prepare(const std::vector<const ppm::Map*>& maps, const ppm::Workers&) override {
     for (const auto* map : maps) prepared.push_back(number_of(*map));
   }
-  void predict(const ppm::Map& map, ppm::Prediction& out, int) const override {
-    ++views;
-    for (auto& r : out.range) r = static_cast<float>(number_of(map) + out.T_map_camera.translation().x());
+  void predict(const ppm::Map& map, const ppm::Rows& rows, ppm::Prediction& out, int) const override {
+    if (rows.first == 0) ++views;
+    for (int y = rows.first; y < rows.end; ++y)
+      for (int x = 0; x < out.camera.cols; ++x) {
+        float& range = out.range[static_cast<std::size_t>(y * out.camera.cols + x)];
+        const bool first_time = range == ppm::Prediction::kMiss;
+        range = first_time ? static_cast<float>(number_of(map) + out.T_map_camera.translation().x()) : NAN;
+      }
   }
 };
 
@@ -33,10 +39,13 @@ const ppm::Registry& toys() {
   return registry;
 }
 
-std::shared_ptr<const ppm::Frame> frame_8x4() {
+std::shared_ptr<const ppm::Frame> frame_of(int cols, int rows) {
   auto frame = std::make_shared<ppm::Frame>();
-  frame->camera = {8, 4, 4, 4, 3.5, 1.5};
+  frame->camera = {cols, rows, 4, 4, 3.5, 1.5};
   return frame;
+}
+std::shared_ptr<const ppm::Frame> frame_8x4() {
+  return frame_of(8, 4);
 }
 
 }  // namespace
@@ -70,5 +79,20 @@ TEST_CASE("each particle gets its view, twins the same one, each map is prepared
     h.tick();
     CHECK(kept->range[0] == 10.5f);
     CHECK(belief.prediction[2]->range[0] == 11.0f);
+  }
+}
+
+TEST_CASE("a view is made in parts where there are few, whole where there are many, each pixel once") {
+  for (std::size_t particles : {1u, 40u}) {
+    ppm::Harness h(toys(), "prediction.toy", "{}", 4);
+    h.input<ppm::Frame>("frame", frame_of(3, 37));
+    auto& belief = h.belief();
+    belief.init(particles, shifted(0), number_map(10));
+    for (std::size_t i = 0; i < particles; ++i) belief.pose[i] = shifted(static_cast<double>(i));
+    views = 0;
+    h.tick();
+    CHECK(views == static_cast<int>(particles));
+    for (std::size_t i = 0; i < particles; ++i)
+      CHECK(belief.prediction[i]->range == std::vector<float>(3 * 37, static_cast<float>(10 + i)));
   }
 }

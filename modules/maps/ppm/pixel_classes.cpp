@@ -44,9 +44,10 @@ float surface_distance(const UpdateView& view, const SurfaceGate& gate, std::siz
 }
 
 void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas,
-                     const std::vector<std::uint8_t>& gone, std::vector<std::uint8_t>& classes) {
+                     const std::vector<std::uint8_t>& gone, const Workers& workers,
+                     std::vector<std::uint8_t>& classes) {
   classes.assign(view.depth.size(), 0);
-  for (int y = 0; y < view.rows(); ++y)
+  for_each_row(workers, view.rows(), [&](int y) {
     for (int x = 0; x < view.cols(); ++x) {
       const auto p = view.at(x, y);
       if (!view.measured(p)) continue;
@@ -59,6 +60,7 @@ void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate
       if (!(c & (kExplained | kBehind))) c |= kWanted;
       classes[p] = c;
     }
+  });
 }
 
 void open_mask(int cols, int rows, int radius, const std::vector<std::uint8_t>& ignored,

@@ -40,7 +40,7 @@ float surface_distance(const UpdateView& view, const SurfaceGate& gate, std::siz
 /// Classes of all pixels [px]: 0 without a measurement. gate_sigmas: how many spreads still fit.
 /// gone: pixels [px] whose predicted face was deleted count as misses; empty = none.
 void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas,
-                     const std::vector<std::uint8_t>& gone, std::vector<std::uint8_t>& classes);
+                     const std::vector<std::uint8_t>& gone, const Workers& workers, std::vector<std::uint8_t>& classes);
 
 /// Removes the parts of a mask that are thinner than 2 radius + 1 pixels (erosion, then dilation, by a square). Pixels
 /// of `ignored` (set = neither inside nor outside) do not make their surroundings thin. Pixels beyond the image do not

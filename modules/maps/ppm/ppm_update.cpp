@@ -9,7 +9,12 @@ namespace {
 class FaceWriter {
  public:
   FaceWriter(const UpdateView& view, const TexelSettings& texels, float excess, Boundary& boundary, PpmEdit& edit)
-      : view_(view), texels_(texels), excess_(excess), boundary_(boundary), edit_(edit), used_(boundary.vertex.size(), 0) {}
+      : view_(view),
+        texels_(texels),
+        excess_(excess),
+        boundary_(boundary),
+        edit_(edit),
+        used_(boundary.vertex.size(), 0) {}
 
   void write(const RimFace& face) {
     std::array<std::uint32_t, 3> ids;
@@ -68,11 +73,11 @@ void UpdateSettings::share() {
 
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame,
                                          const Prediction& prediction, const UpdateSettings& settings,
-                                         std::int64_t frame_number, UpdateCounts* counts) {
+                                         std::int64_t frame_number, const Workers& workers, UpdateCounts* counts) {
   UpdateView view;
-  view.build(frame, prediction);
+  view.build(frame, prediction, workers);
   std::vector<std::uint8_t> classes;
-  classify_pixels(view, settings.gate, settings.classify_sigmas, {}, classes);
+  classify_pixels(view, settings.gate, settings.classify_sigmas, {}, workers, classes);
 
   PpmEdit edit(std::move(map));
   const auto tallies = tally_faces(edit.map(), view, classes);
@@ -85,9 +90,9 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
     for (const auto& f : removed) edit.remove_face(f.chunk, f.face);
     std::vector<std::uint8_t> gone;
     mark_pixels(view, removed, gone);
-    classify_pixels(view, settings.gate, settings.classify_sigmas, gone, classes);
+    classify_pixels(view, settings.gate, settings.classify_sigmas, gone, workers, classes);
   }
-  update_texels(view, classes, kept, settings.texels, edit);
+  update_texels(view, classes, kept, settings.texels, workers, edit);
 
   Boundary boundary;
   boundary.build(edit.map(), view, removed);

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "framework/core/parallel.hpp"
 #include "framework/slam/frame.hpp"
 #include "framework/slam/prediction.hpp"
 #include "modules/maps/ppm/face_votes.hpp"
@@ -37,9 +38,10 @@ struct UpdateCounts {
 /// The map after one frame: pixels are classified against the prediction, faces voted on and removed, texels updated,
 /// new surface made and stitched on, slits and small holes closed. A pure function of its arguments: the same bytes
 /// each time. map: moved in; where it is the only handle its memory is reused. prediction: of this map at the frame's
-/// pose. frame_number: of the run, from 0.
+/// pose. frame_number: of the run, from 0. workers: share the parts that no order binds.
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame,
                                          const Prediction& prediction, const UpdateSettings& settings,
-                                         std::int64_t frame_number, UpdateCounts* counts = nullptr);
+                                         std::int64_t frame_number, const Workers& workers,
+                                         UpdateCounts* counts = nullptr);
 
 }  // namespace ppm

@@ -65,11 +65,24 @@ void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::s
   Texels& texels = edit.texels(seen.chunk[p]);
   const float offset = normal.dot(view.point[p] - view.relative(geometry.position[geometry.face[f][0]]));
   const float excess = texels.evidence[f].added_variance();
-  const float limit = settings.gate_sigmas * settings.gate.spread(view.sigma[p], cosine, texels.variance[t] );
+  const float limit = settings.gate_sigmas * settings.gate.spread(view.sigma[p], cosine, texels.variance[t]);
   if (std::abs(offset - texels.mean[t]) > limit) return;
   const float pixel = view.depth[p] * std::abs(view.inv_fx);
   fuse(texels.mean[t], texels.variance[t], offset,
        variance_along_normal(view.sigma[p], cosine, view.lateral_px * pixel));
+}
+
+/// Gathers for a face of the map.
+void gather_map_face(const UpdateView& view, const TexelSettings& settings, const Geometry& geometry, std::uint32_t f,
+                     Texels& texels) {
+  const auto& [i, j, k] = geometry.face[f];
+  const auto first = geometry.first_texel[f];
+  const auto count = texel_count(geometry.divisions[f]);
+  gather_face(
+      view, settings,
+      {view.relative(geometry.position[i]), view.relative(geometry.position[j]), view.relative(geometry.position[k])},
+      geometry.divisions[f], texels.evidence[f].added_variance(), {&texels.mean[first], count},
+      {&texels.variance[first], count});
 }
 
 }  // namespace
@@ -100,7 +113,7 @@ void start_texels(const UpdateView& view, const TexelSettings& settings, const s
                   std::span<float> variance) {
   std::fill(mean.begin(), mean.end(), 0.0f);
   std::fill(variance.begin(), variance.end(), prior_variance);
-  if (settings.new_texels == NewTexels::measured) 
+  if (settings.new_texels == NewTexels::measured)
     return gather_face(view, settings, corner, divisions, excess, mean, variance);
   const Eigen::Vector3f centroid = (corner[0] + corner[1] + corner[2]) / 3;
   const Eigen::Vector3f image = view.project(centroid);
@@ -113,24 +126,22 @@ void start_texels(const UpdateView& view, const TexelSettings& settings, const s
 }
 
 void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<FaceRef>& faces,
-                   const TexelSettings& settings, PpmEdit& edit) {
+                   const TexelSettings& settings, const Workers& workers, PpmEdit& edit) {
   if (settings.form == TexelForm::scatter) {
     for (std::size_t p = 0; p < classes.size(); ++p)
       if (classes[p] & kOwnHit) scatter_pixel(view, settings, p, edit);
     return;
   }
-  for (const auto& [c, f] : faces) {
-    const auto& geometry = *edit.map().table()[c].geometry;
-    const auto& [i, j, k] = geometry.face[f];
-    Texels& texels = edit.texels(c);
-    const auto first = geometry.first_texel[f];
-    const auto count = texel_count(geometry.divisions[f]);
-    gather_face(
-        view, settings,
-        {view.relative(geometry.position[i]), view.relative(geometry.position[j]), view.relative(geometry.position[k])},
-        geometry.divisions[f], texels.evidence[f].added_variance(), {&texels.mean[first], count},
-        {&texels.variance[first], count});
-  }
+  std::vector<Texels*> texels(edit.map().table().size(), nullptr);
+  for (const auto& f : faces)
+    if (!texels[f.chunk]) texels[f.chunk] = &edit.texels(f.chunk);
+  constexpr std::size_t kTurn = 64;  // faces
+  workers.for_each((faces.size() + kTurn - 1) / kTurn, [&](std::size_t turn, int) {
+    for (std::size_t i = turn * kTurn; i < std::min((turn + 1) * kTurn, faces.size()); ++i) {
+      const auto [chunk, face] = faces[i];
+      gather_map_face(view, settings, *edit.map().table()[chunk].geometry, face, *texels[chunk]);
+    }
+  });
 }
 
 }  // namespace ppm

@@ -41,12 +41,12 @@ inline void fuse(float& mean, float& variance, float offset, float measured_vari
   variance = variance * measured_variance / sum;
 }
 
-/// The gather form for one face, of the map or new. corner: relative to the view's centre, in winding order; excess: m^2,
-/// the face's added_variance(): it widens the gate, and is no noise of a texel, which would then forget how much better
-/// near views are; mean, variance [texel_count(divisions)] are updated. Each node takes the distance of the four measured points around its
-/// image from the face's plane, weighted bilinearly, of those within the gate (so none from beyond a depth jump);
-/// nothing where they have less than half of the weight. Where texels are finer than pixels, one measurement reaches
-/// several: its variance grows by the ratio of areas, so that near and far views mix rightly.
+/// The gather form for one face, of the map or new. corner: relative to the view's centre, in winding order; excess:
+/// m^2, the face's added_variance(): it widens the gate, and is no noise of a texel, which would then forget how much
+/// better near views are; mean, variance [texel_count(divisions)] are updated. Each node takes the distance of the four
+/// measured points around its image from the face's plane, weighted bilinearly, of those within the gate (so none from
+/// beyond a depth jump); nothing where they have less than half of the weight. Where texels are finer than pixels, one
+/// measurement reaches several: its variance grows by the ratio of areas, so that near and far views mix rightly.
 void gather_face(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
                  std::uint32_t divisions, float excess, std::span<float> mean, std::span<float> variance);
 
@@ -59,6 +59,6 @@ void start_texels(const UpdateView& view, const TexelSettings& settings, const s
 /// Updates the texels of the faces in view. `faces`: those that rays met (see tally_faces), without the removed ones.
 /// The scatter form uses the pixels of class kOwnHit.
 void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<FaceRef>& faces,
-                   const TexelSettings& settings, PpmEdit& edit);
+                   const TexelSettings& settings, const Workers& workers, PpmEdit& edit);
 
 }  // namespace ppm

@@ -19,7 +19,7 @@ void set_camera(UpdateView& view, const Camera& camera, const Pose& T_map_camera
 
 }  // namespace
 
-void UpdateView::build(const Frame& frame, const Prediction& seen) {
+void UpdateView::build(const Frame& frame, const Prediction& seen, const Workers& workers) {
   PPM_CHECK(seen.camera == frame.camera.decimated(seen.stride), "the prediction is not one of frame {}'s camera",
             frame.index);
   PPM_CHECK(seen.camera.cols > 1 && seen.camera.rows > 1, "an image of {}x{} pixels shows no surface", seen.camera.cols,
@@ -33,7 +33,7 @@ void UpdateView::build(const Frame& frame, const Prediction& seen) {
   point.resize(pixels);
   normal.resize(pixels);
   offset.resize(pixels);
-  for (int y = 0; y < camera.rows; ++y) {
+  for_each_row(workers, camera.rows, [&](int y) {
     const auto row = static_cast<std::size_t>(y * seen.stride) * static_cast<std::size_t>(frame.camera.cols);
     for (int x = 0; x < camera.cols; ++x) {
       const auto p = at(x, y);
@@ -45,7 +45,7 @@ void UpdateView::build(const Frame& frame, const Prediction& seen) {
       normal[p] = Eigen::Vector3f(seen.normal[3 * p], seen.normal[3 * p + 1], seen.normal[3 * p + 2]);
       offset[p] = seen.hit(p) ? seen.range[p] * normal[p].dot(r.normalized()) + seen.mean[p] : 0.0f;
     }
-  }
+  });
 }
 
 }  // namespace ppm

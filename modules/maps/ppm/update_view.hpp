@@ -1,12 +1,24 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "framework/core/parallel.hpp"
 #include "framework/slam/frame.hpp"
 #include "framework/slam/prediction.hpp"
 
 namespace ppm {
+
+/// Calls body(y) once for each row of an image, several rows to a worker's turn.
+template <class Body>
+void for_each_row(const Workers& workers, int rows, const Body& body) {
+  constexpr int kTurn = 16;
+  workers.for_each(static_cast<std::size_t>((rows + kTurn - 1) / kTurn), [&](std::size_t turn, int) {
+    const int first = static_cast<int>(turn) * kTurn;
+    for (int y = first; y < std::min(first + kTurn, rows); ++y) body(y);
+  });
+}
 
 /// A frame beside what the map predicts for it, pixel by pixel, on the prediction's grid. Points are relative to the
 /// camera's centre with the axes of the map frame, so that floats keep their precision far from the map's origin.
@@ -16,7 +28,7 @@ class UpdateView {
 
   /// Fills the view; keeps capacity. The prediction must be one of this frame's camera (its camera is the frame's
   /// decimated by prediction.stride) and must outlive the view.
-  void build(const Frame& frame, const Prediction& prediction);
+  void build(const Frame& frame, const Prediction& prediction, const Workers& workers);
 
   int cols() const { return camera.cols; }
   int rows() const { return camera.rows; }
