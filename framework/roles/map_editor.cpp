@@ -7,7 +7,7 @@ namespace ppm {
 void MapEditor::tick(Context& context) {
   before(context);
   auto& particles = *belief;
-  const auto leader = twins(particles, true);
+  const auto leader = reads_ == EditReads::map ? map_twins(particles) : twins(particles, true);
   std::vector<std::size_t> leaders;
   for (std::size_t i = 0; i < leader.size(); ++i) {
     if (leader[i] == i)

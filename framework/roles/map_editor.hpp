@@ -6,9 +6,15 @@
 
 namespace ppm {
 
-/// Base of modules that change maps as a pure function of (map, pose, prediction): particles that agree in all three
-/// (copies of one ancestor after resampling) are computed once, by the lowest of them, and share the result. Draws no
-/// random numbers.
+/// What an edit of a map is a function of, beside the frame.
+enum class EditReads {
+  view,  ///< the particle's map, pose and prediction
+  map,   ///< its map alone
+};
+
+/// Base of modules that change maps as a pure function of what they read: particles that agree in all of it (copies of
+/// one ancestor after resampling) are computed once, by the lowest of them, and share the result. Draws no random
+/// numbers.
 class MapEditor : public Module {
  public:
   InOut<Belief> belief;
@@ -23,7 +29,11 @@ class MapEditor : public Module {
   void tick(Context& context) final;
 
  protected:
-  explicit MapEditor(Facets facets) : belief(this, std::move(facets)) {}
+  explicit MapEditor(Facets facets, EditReads reads = EditReads::view)
+      : belief(this, std::move(facets)), reads_(reads) {}
+
+ private:
+  EditReads reads_;
 };
 
 }  // namespace ppm

@@ -11,4 +11,7 @@ namespace ppm {
 /// the work.
 std::vector<std::size_t> twins(const ParticleSet& belief, bool same_prediction);
 
+/// For each particle the lowest particle with the same map, wherever they are.
+std::vector<std::size_t> map_twins(const ParticleSet& belief);
+
 }  // namespace ppm

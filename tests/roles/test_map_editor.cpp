@@ -23,6 +23,15 @@ struct AddOne final : ppm::MapEditor {
   }
 };
 
+/// Adds 1, and looks at nothing but the map.
+struct AddOneAnywhere final : ppm::MapEditor {
+  AddOneAnywhere() : MapEditor({{"map.number"}, {}, {}}, ppm::EditReads::map) {}
+  ppm::MapHandle edit(ppm::Context&, std::size_t, ppm::MapHandle map, int) override {
+    ++edits;
+    return number_map(number_of(*map) + 1);
+  }
+};
+
 struct Forgets final : ppm::MapEditor {
   Forgets() : MapEditor({{"map.number"}, {}, {}}) {}
   ppm::MapHandle edit(ppm::Context&, std::size_t, ppm::MapHandle, int) override { return nullptr; }
@@ -32,6 +41,7 @@ const ppm::Registry& toys() {
   static const ppm::Registry registry = [] {
     ppm::Registry r;
     r.add<AddOne>("refinement.add_one", "Adds one.", "made up");
+    r.add<AddOneAnywhere>("refinement.add_one_anywhere", "Adds one.", "made up");
     r.add<Forgets>("refinement.forgets", "Gives no map.", "made up");
     return r;
   }();
@@ -62,6 +72,22 @@ TEST_CASE("copies of one ancestor are edited once and share the result") {
     CHECK(belief.map[0] != belief.map[4]);
     CHECK(belief.map[3] != belief.map[4]);
   }
+}
+
+TEST_CASE("an edit that reads maps alone is done once a map, whatever the poses and views") {
+  ppm::Harness h(toys(), "refinement.add_one_anywhere");
+  auto& belief = h.belief();
+  belief.init(5, shifted(0), number_map(10));
+  belief.pose[1] = shifted(1);
+  belief.prediction[2] = std::make_shared<ppm::Prediction>();
+  belief.map[3] = belief.map[4] = number_map(20);
+  belief.pose[4] = shifted(2);
+  edits = 0;
+  h.tick();
+  CHECK(edits == 2);
+  CHECK(number_of(*belief.map[3]) == 21);
+  for (std::size_t i : {1u, 2u}) CHECK(belief.map[i] == belief.map[0]);
+  CHECK(belief.map[4] == belief.map[3]);
 }
 
 TEST_CASE("a map that only twins have is edited in place, a snapshot is never touched") {
