@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/roles/frame_source.hpp"
+#include "framework/roles/sensor_models.hpp"
 #include "framework/roles/view_predictor.hpp"
 
 namespace ppm {
@@ -30,7 +31,7 @@ Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& pa
     throw ConfigError({}, "the source has no reference poses to predict held-out frames from; use --poses estimated");
   const bool use_reference = from == HoldoutFrom::reference || (from == HoldoutFrom::automatic && !reference.empty());
   const auto poses = use_reference ? reference_poses(path, reference) : estimated_poses(path);
-  result.holdout = score_holdout(*map, *source, last_index, *predictor, poses, workers);
+  result.holdout = score_holdout(*map, *source, sensor_models(graph), last_index, *predictor, poses, workers);
   return result;
 }
 

@@ -84,7 +84,8 @@ HoldoutPoses estimated_poses(std::vector<StampedPose> path) {
           }};
 }
 
-std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source, std::int64_t last,
+std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source,
+                                     const std::vector<const SensorModel*>& sensor, std::int64_t last,
                                      ViewPredictor& predictor, const HoldoutPoses& poses, const Workers& workers) {
   std::vector<std::int64_t> indices;
   for (auto i : source.held_out())
@@ -101,6 +102,7 @@ std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source, 
     const std::size_t n = std::min(batch.size(), indices.size() - first);
     workers.for_each(n, [&](std::size_t i, int worker) {
       batch[i].frame = source.full_frame(indices[first + i]);
+      for (const auto* model : sensor) model->set_noise(batch[i].frame);
       look(map, predictor, poses, batch[i], worker);
     });
     for (std::size_t i = 0; i < n; ++i) {

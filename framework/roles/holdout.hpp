@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/core/parallel.hpp"
+#include "framework/roles/frame_filter.hpp"
 #include "framework/roles/frame_source.hpp"
 #include "framework/roles/view_predictor.hpp"
 #include "framework/slam/depth_score.hpp"
@@ -39,9 +40,11 @@ struct Holdout {
 };
 
 /// Predicts the held-out frames of a source (open) up to index `last` from a map of the kind that the predictor can
-/// look at, and compares. Nothing where no such frame has a pose. The same numbers for any number of workers. Throws
+/// look at, and compares. sensor: models that are applied to each held-out frame, in this order (see sensor_models); without
+/// any, sigma is the source's. Nothing where no such frame has a pose. The same numbers for any number of workers. Throws
 /// DataError.
-std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source, std::int64_t last,
+std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source,
+                                     const std::vector<const SensorModel*>& sensor, std::int64_t last,
                                      ViewPredictor& predictor, const HoldoutPoses& poses, const Workers& workers);
 
 }  // namespace ppm

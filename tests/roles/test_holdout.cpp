@@ -124,7 +124,7 @@ TEST_CASE("a map in the reference's frame is looked at from the reference poses"
   PlanePredictor predictor;
   const auto poses = reference_poses(source.reference(), source.reference());
   CHECK(poses.name == "reference");
-  const auto result = score_holdout(PlaneMap({}), source, kAll, predictor, poses, Workers(2));
+  const auto result = score_holdout(PlaneMap({}), source, {}, kAll, predictor, poses, Workers(2));
   REQUIRE(result);
   CHECK(predictor.prepared == 1);
   CHECK(result->frames == 8);
@@ -161,7 +161,7 @@ TEST_CASE("a map in a frame of its own is looked at from aligned poses") {
   }
   const auto poses = reference_poses(path, source.reference());
   CHECK(poses.name == "reference, aligned");
-  const auto result = score_holdout(map, source, kAll, predictor, poses, Workers(1));
+  const auto result = score_holdout(map, source, {}, kAll, predictor, poses, Workers(1));
   REQUIRE(result);
   CHECK(result->poses == "reference, aligned");
   CHECK(result->frames == 8);
@@ -216,15 +216,15 @@ TEST_CASE("only frames up to the last mapped one are scored, and only those with
   const PlaneSource source;
   PlanePredictor predictor;
   const auto poses = reference_poses(source.reference(), source.reference());
-  CHECK(score_holdout(PlaneMap({}), source, 11, predictor, poses, Workers(1))->frames == 2);  // 2 and 7
-  CHECK_FALSE(score_holdout(PlaneMap({}), source, 1, predictor, poses, Workers(1)));
+  CHECK(score_holdout(PlaneMap({}), source, {}, 11, predictor, poses, Workers(1))->frames == 2);  // 2 and 7
+  CHECK_FALSE(score_holdout(PlaneMap({}), source, {}, 1, predictor, poses, Workers(1)));
 
   const auto some = estimated_poses({source.reference()[5], source.reference()[9]});  // frames 6 and 11
-  CHECK(score_holdout(PlaneMap({}), source, kAll, predictor, some, Workers(1))->frames == 1);
+  CHECK(score_holdout(PlaneMap({}), source, {}, kAll, predictor, some, Workers(1))->frames == 1);
 
   const PlaneSource without(false);
   CHECK(without.reference().empty());
-  CHECK_FALSE(score_holdout(PlaneMap({}), without, kAll, predictor, poses, Workers(1)));
+  CHECK_FALSE(score_holdout(PlaneMap({}), without, {}, kAll, predictor, poses, Workers(1)));
   CHECK_THROWS_AS(reference_poses(source.reference(), without.reference()), DataError);
 }
 
@@ -233,10 +233,39 @@ TEST_CASE("the score does not depend on the number of threads") {
   PlanePredictor predictor;
   const auto poses = estimated_poses(source.reference());
   const PlaneMap map({Eigen::Vector3d(0.01, 0, 1).normalized(), 3.01});
-  const auto one = score_holdout(map, source, kAll, predictor, poses, Workers(1));
-  const auto four = score_holdout(map, source, kAll, predictor, poses, Workers(4));
+  const auto one = score_holdout(map, source, {}, kAll, predictor, poses, Workers(1));
+  const auto four = score_holdout(map, source, {}, kAll, predictor, poses, Workers(4));
   CHECK(one->score.median_mm == four->score.median_mm);
   CHECK(one->score.log_density == four->score.log_density);
   CHECK(one->score.mean_trunc20cm_mm == four->score.mean_trunc20cm_mm);
   CHECK(one->score.median_mm > 1);
+}
+
+namespace {
+
+/// Every depth is as good as the given sigma, to 1 % of it.
+class SetSigma final : public SensorModel {
+ public:
+  explicit SetSigma(float sigma) : sigma_(sigma) {}
+  void set_noise(Frame& image) const override { image.sigma.assign(image.depth.size(), sigma_); }
+
+ private:
+  float sigma_;
+};
+
+}  // namespace
+
+TEST_CASE("the density of a held-out frame is that of the graph's sensor, errors are as measured") {
+  const PlaneSource source;
+  PlanePredictor predictor;
+  const auto poses = reference_poses(source.reference(), source.reference());
+  const PlaneMap map({{0, 0, 1}, 3.01});
+  auto score = [&](const std::vector<const SensorModel*>& sensor) {
+    return score_holdout(map, source, sensor, kAll, predictor, poses, Workers(2))->score;
+  };
+  const SetSigma coarse(1.0f), fine(0.01f);
+  const auto own = score({}), blurred = score({&coarse}), last_wins = score({&coarse, &fine});
+  CHECK(blurred.median_mm == own.median_mm);
+  CHECK(blurred.log_density < -0.8);
+  CHECK(last_wins.log_density > 2.5);
 }

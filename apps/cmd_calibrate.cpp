@@ -1,0 +1,14 @@
+#include <CLI/CLI.hpp>
+
+#include "apps/calibrate_sensor.hpp"
+#include "apps/commands.hpp"
+
+namespace ppm {
+
+void add_calibrate(CLI::App& app) {
+  auto* command = app.add_subcommand("calibrate", "Fits the parameters of a module to data");
+  command->require_subcommand(1);
+  add_calibrate_sensor(*command);
+}
+
+}  // namespace ppm

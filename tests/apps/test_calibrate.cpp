@@ -1,0 +1,59 @@
+#include <catch2/catch.hpp>
+
+#include "tests/apps/command.hpp"
+#include "tests/support/data.hpp"
+
+using namespace ppm::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const char* const kRoomSource = R"(name: room
+seed: 3
+nodes:
+  - {name: camera, module: source.synthetic_room, params: {frames: 7}}
+)";
+
+}  // namespace
+
+TEST_CASE("calibrate sensor says what the images are not") {
+  TempFolder folder;
+  const auto graph = (folder / "room.yaml").string();
+  write_text(graph, kRoomSource);
+  const auto odd = ppm_command({"calibrate", "sensor", graph, "--still", "2"});
+  CHECK(odd->code == 2);
+  CHECK_THAT(odd->err, Contains("room.yaml") && Contains("7 images") && Contains("--still"));
+  CHECK(ppm_command({"calibrate", "sensor", graph, "--still", "1"})->code == 2);
+  CHECK(ppm_command({"calibrate"})->code == 2);
+}
+
+TEST_CASE("calibrate sensor fits the SR4000's noise, and every place as well by the others") {
+  const auto data = data_path("sr4000");
+  if (!data) return;
+  TempFolder folder;
+  const auto bins = folder / "bins.csv";
+  const auto run =
+      ppm_command({"calibrate", "sensor", std::string(PPM_SOURCE_DIR) + "/configs/sr4000_still.yaml", "--set",
+                   "camera.path=" + data->string(), "--set", "camera.last=-1", "--bins", bins.string()});
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  const auto out = lines(run->out);
+  double floor = 0, signal = 0;
+  int shares = 0;
+  for (const auto& line : out) {
+    std::sscanf(line.c_str(), "  sigma_floor: %lf m", &floor);
+    std::sscanf(line.c_str(), "  signal_noise: %lf", &signal);
+    double one = 0, two = 0;
+    const auto at = line.find(" 0.");
+    if (line.starts_with("#   ") && at != std::string::npos &&
+        std::sscanf(line.c_str() + at, "%lf %lf", &one, &two) == 2) {
+      ++shares;
+      CHECK(one == Approx(0.683).margin(0.06));
+      CHECK(two == Approx(0.954).margin(0.04));
+    }
+  }
+  CHECK(shares == 5);
+  CHECK(floor == Approx(0.013).margin(0.003));
+  CHECK(signal == Approx(3.2).margin(0.4));
+  CHECK(lines(content(bins)).size() > 30);
+}
