@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/accuracy.hpp"
+#include "apps/checkpoint.hpp"
 #include "apps/commands.hpp"
 #include "apps/graph_options.hpp"
 #include "apps/progress.hpp"
@@ -19,38 +20,54 @@ namespace {
 
 struct RunOptions {
   GraphOptions graph;
-  std::filesystem::path out;
-  std::int64_t frames = std::numeric_limits<std::int64_t>::max();
+  std::filesystem::path out, resume;
+  std::optional<std::int64_t> frames;
   int threads = 0;
   bool force = false, quiet = false;
 };
 
 /// What a run holds, in the order in which it is made.
 struct Run {
+  std::unique_ptr<Checkpoint> from;  // where it goes on, or null
   Graph graph;
+  RunStart start;
   RunFolder folder;
   Workers workers;
   Log log;
   Metrics metrics;
   Context context;
   Executor executor;
+  CheckpointCosts checkpoints;
 
   explicit Run(const RunOptions& options)
-      : graph(options.graph.load()),
-        folder(options.out.empty() ? std::filesystem::path("runs") / graph.name() : options.out, options.force),
+      : from(options.resume.empty() ? nullptr : std::make_unique<Checkpoint>(options.resume)),
+        graph(options.graph.load()),
+        start(from ? from->start() : RunStart{graph.experiment_yaml(), options.graph.file, kNoLimit, {}}),
+        folder(from ? RunFolder(options.resume, start.files)
+                    : RunFolder(options.out.empty() ? std::filesystem::path("runs") / graph.name() : options.out, options.force)),
         workers(options.threads),
         log(options.quiet ? LogLevel::warning : LogLevel::info),
         context(workers, log, metrics, graph.seed(), folder.path()),
-        executor(graph, context) {}
+        executor(graph, context) {
+    if (options.frames) start.max_frames = *options.frames;
+    if (from) from->check_graph(graph, options.graph.file);
+  }
 
-  RunSummary frames(const RunOptions& options) {
+  RunSummary frames(bool quiet) {
     StopSignal stop;
-    Progress progress(log);
+    if (from) {
+      from->restore(executor);
+      from.reset();
+    }
+    const auto before = executor.frames();
+    Progress progress(log, before);
     executor.on_frame = [&](std::int64_t done, std::int64_t expected) {
-      if (done == 1) folder.drop_earlier_results();
-      if (!options.quiet) progress.show(done, expected);
+      if (done == before + 1) begin_folder();
+      if (graph.checkpoint_every() > 0 && done % graph.checkpoint_every() == 0) keep_checkpoint();
+      if (!quiet) progress.show(done, expected);
     };
-    return executor.run(options.frames, stop.requested());
+    executor.on_stop = [&] { keep_checkpoint(); };
+    return executor.run(start.max_frames, stop.requested());
   }
 
   Accuracy accuracy() const {
@@ -62,17 +79,40 @@ struct Run {
     return measure_accuracy(graph, path, path.back().frame, belief.map[best].get(), HoldoutFrom::automatic, workers);
   }
 
-  void write(const RunSummary& summary, const Accuracy& measured, const std::filesystem::path& graph_file) {
-    write_file(folder.path() / "config.effective.yaml", graph.effective_yaml());
-    const RunReport report{graph, summary, executor.belief(), metrics, workers, measured, graph_file, folder.written()};
+  void write(const RunSummary& summary, const Accuracy& measured) {
+    write_file(folder.path() / kEffectiveGraph, graph.effective_yaml());
+    const RunReport report{graph,    summary,  executor.belief(), metrics,          workers,
+                           measured, checkpoints, start.graph_file,  folder.written()};
     write_file(folder.path() / "run.json", run_json(report));
+  }
+
+  static constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+
+ private:
+  /// The first frame is done: its input could be read, so an earlier run's results may go.
+  void begin_folder() {
+    folder.drop_earlier_results();
+    write_file(folder.path() / kEffectiveGraph, graph.effective_yaml());
+  }
+
+  /// A checkpoint that cannot be written is no reason to lose the run: it is told, and the one before stays.
+  void keep_checkpoint() {
+    const Stopwatch watch;
+    try {
+      start.files = folder.written();
+      checkpoints.bytes = write_checkpoint(folder.path() / kCheckpoint, start, executor);
+      checkpoints.frame = executor.frames();
+      checkpoints.ms.push_back(watch.ms());
+    } catch (const Error& e) {
+      log.error("no checkpoint after {} frames: {}", executor.frames(), e.what());
+    }
   }
 };
 
 /// False where the run was interrupted.
 bool run(const RunOptions& options) {
   Run run(options);
-  const RunSummary summary = run.frames(options);
+  const RunSummary summary = run.frames(options.quiet);
   Accuracy measured;
   std::exception_ptr broken;  // a held-out frame or a reference pose: the run itself is sound and is written
   try {
@@ -80,37 +120,65 @@ bool run(const RunOptions& options) {
   } catch (const DataError&) {
     broken = std::current_exception();
   }
-  run.write(summary, measured, options.graph.file);
+  run.write(summary, measured);
   if (broken) std::rethrow_exception(broken);
   if (!options.quiet) {
+    const auto folder = run.folder.path().string();
     fmt::print("{} {} frames in {:.1f} s ({:.1f} fps); results in {}\n{}",
                summary.interrupted ? "interrupted after" : "done:", summary.frames, summary.wall_s,
-               static_cast<double>(summary.frames) / std::max(summary.wall_s, 1e-9), run.folder.path().string(),
-               accuracy_table(measured));
+               static_cast<double>(summary.frames) / std::max(summary.wall_s, 1e-9), folder, accuracy_table(measured));
+    if (summary.interrupted && run.checkpoints.frame > 0) fmt::print("to go on: ppm run --resume {}\n", folder);
   }
   return !summary.interrupted;
+}
+
+/// The graph of a run that goes on is that of its folder.
+void find_graph(RunOptions& options) {
+  if (!options.resume.empty()) options.graph.file = options.resume / kEffectiveGraph;
+  if (options.graph.file.empty())
+    throw ConfigError({}, "name a graph file, or with --resume the folder of a run that is to go on");
+}
+
+void add_options(CLI::App& command, RunOptions& options) {
+  options.graph.add_to(command);
+  command.get_option("graph")->required(false);
+  command.add_option("--frames", options.frames, "At most so many frames, those before a --resume counted")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command
+      .add_option("--threads", options.threads,
+                  "Worker threads; 0 is as many as the machine has. The results do not depend on it")
+      ->check(CLI::Range(0, 4096))
+      ->type_name("N");
+  command.add_option("--out", options.out, "Folder for the results (default: runs/NAME, after the graph's name)")
+      ->type_name("FOLDER");
+  command.add_flag("--force", options.force, "Write also into a folder that holds other things than a run");
+  command.add_flag("--quiet", options.quiet, "Only warnings and errors");
+  command
+      .add_option("--checkpoint-every", options.graph.checkpoint_every,
+                  "Keeps the state of the run each N frames, in place of the graph's checkpoint_every; 0 is never")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  auto* resume = command
+                     .add_option("--resume", options.resume,
+                                 "Goes on with the run of that folder from its last checkpoint, as if it had not "
+                                 "stopped: graph, seed and plug-ins are the folder's")
+                     ->type_name("FOLDER");
+  for (const char* other : {"graph", "--set", "--seed", "--plugin", "--out", "--force"})
+    resume->excludes(command.get_option(other));
 }
 
 }  // namespace
 
 void add_run(CLI::App& app) {
-  auto* command = app.add_subcommand("run", "Runs a graph and writes a folder of results");
+  auto* command = app.add_subcommand("run", "Runs a graph and writes a folder of results, or goes on with a run");
   auto options = std::make_shared<RunOptions>();
-  options->graph.add_to(*command);
-  command->add_option("--frames", options->frames, "At most so many frames")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  command
-      ->add_option("--threads", options->threads,
-                   "Worker threads; 0 is as many as the machine has. The results do not depend on it")
-      ->check(CLI::Range(0, 4096))
-      ->type_name("N");
-  command->add_option("--out", options->out, "Folder for the results (default: runs/NAME, after the graph's name)")
-      ->type_name("FOLDER");
-  command->add_flag("--force", options->force, "Write also into a folder that holds other things than a run");
-  command->add_flag("--quiet", options->quiet, "Only warnings and errors");
-  command->footer("Ctrl-C ends the frame, writes everything, and exits with 1; a second one aborts.");
+  add_options(*command, *options);
+  command->footer(
+      "Ctrl-C ends the frame, writes everything and a checkpoint, and exits with 1; a second one aborts. A run that was "
+      "stopped or killed goes on with --resume.");
   command->callback([options] {
+    find_graph(*options);
     if (!run(*options)) throw CLI::RuntimeError(1);
   });
 }

@@ -1,6 +1,7 @@
 #include "apps/graph_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "framework/graph/plugin.hpp"
 #include "modules/builtin.hpp"
@@ -55,8 +56,26 @@ void GraphOptions::add_to(CLI::App& command) {
   add_plugin_option(command, plugins);
 }
 
+namespace {
+
+/// Adds the command line's plug-ins to those of the file, so that the effective graph names all that it needs.
+void add_plugins(const std::vector<std::filesystem::path>& plugins, Config& tree) {
+  if (plugins.empty() || tree.kind() != Config::Kind::map) return;
+  if (!tree.find("plugins")) tree.set("plugins", {}, Config::sequence({}, {}));
+  Config& list = *tree.find("plugins");
+  if (list.kind() != Config::Kind::sequence) return;  // building the graph says so
+  for (const auto& library : plugins) {
+    const auto path = std::filesystem::absolute(library).lexically_normal();
+    const auto named = Graph::plugins(tree);
+    if (std::ranges::none_of(named, [&](const auto& known) { return known.first == path; }))
+      list.items().push_back(Config::scalar(path.string(), Place{"--plugin " + library.string()}));
+  }
+}
+
+}  // namespace
+
 Graph GraphOptions::load() const {
-  const Config tree = load_yaml(file);
+  Config tree = load_yaml(file);
   Registry registry = make_registry(plugins);
   Mistakes mistakes;
   for (const auto& [library, place] : Graph::plugins(tree))
@@ -64,6 +83,10 @@ Graph GraphOptions::load() const {
   std::vector<Override> overrides;
   for (const auto& text : set) mistakes.collect([&] { overrides.push_back(parse_override(text)); });
   if (seed) overrides.push_back(Override{"", "seed", Config::scalar(std::to_string(*seed), Place{"--seed"})});
+  if (checkpoint_every)
+    overrides.push_back(Override{"", "checkpoint_every",
+                                 Config::scalar(std::to_string(*checkpoint_every), Place{"--checkpoint-every"})});
+  add_plugins(plugins, tree);
   Graph graph;
   mistakes.collect([&] { graph = Graph::build(tree, registry, overrides); });
   mistakes.throw_if_any();

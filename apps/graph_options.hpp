@@ -23,6 +23,7 @@ struct GraphOptions {
   std::filesystem::path file;
   std::vector<std::string> set;  ///< "node.key=value"
   std::optional<std::uint64_t> seed;
+  std::optional<std::int64_t> checkpoint_every;  ///< an option of `ppm run` alone
   std::vector<std::filesystem::path> plugins;
 
   void add_to(CLI::App& command);

@@ -17,9 +17,9 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 void Progress::show(std::int64_t done, std::int64_t expected) {
-  if (done > 1 && done != expected && since_shown_.seconds() < kInterval_s) return;
+  if (done > before_ + 1 && done != expected && since_shown_.seconds() < kInterval_s) return;
   since_shown_.reset();
-  const double rate = static_cast<double>(done) / since_start_.seconds();
+  const double rate = static_cast<double>(done - before_) / since_start_.seconds();
   if (expected <= 0) {
     log_.status(fmt::format("frame {}  {:.1f} fps", done, rate));
     return;

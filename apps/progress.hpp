@@ -9,7 +9,8 @@ namespace ppm {
 /// Frame, rate and time left, at the bottom of a terminal; nothing in a pipe.
 class Progress {
  public:
-  explicit Progress(Log& log) : log_(log) {}
+  /// before: frames that were done before it began.
+  explicit Progress(Log& log, std::int64_t before = 0) : log_(log), before_(before) {}
   ~Progress() { log_.status(""); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -19,6 +20,7 @@ class Progress {
 
  private:
   Log& log_;
+  std::int64_t before_;
   Stopwatch since_start_, since_shown_;
 };
 

@@ -18,18 +18,17 @@ std::map<std::string, std::filesystem::file_time_type> file_times(const std::fil
   return times;
 }
 
-/// The files that a run.json lists, and itself; none where it lists none.
-std::vector<std::string> listed_files(const std::filesystem::path& report) {
-  std::ifstream in(report);
+/// What an earlier run left: the files that its run.json lists, and those that every run has. A run that was killed has no list.
+std::vector<std::string> files_of_run(const std::filesystem::path& folder) {
+  std::vector<std::string> files{kReport, kEffectiveGraph, kCheckpoint};
+  std::ifstream in(folder / kReport);
   const auto json = nlohmann::json::parse(in, nullptr, false);
-  std::vector<std::string> files;
   if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) return files;
   for (const auto& name : json["files"]) {
     // A name, never a way out of the folder.
     if (name.is_string() && std::filesystem::path(name.get<std::string>()).filename() == name.get<std::string>())
       files.push_back(name.get<std::string>());
   }
-  files.emplace_back(kReport);
   return files;
 }
 
@@ -43,11 +42,16 @@ RunFolder::RunFolder(std::filesystem::path path, bool force) : path_(std::move(p
   made_ = fs::create_directories(path_, error);
   if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", path_.string(), error.message()));
   before_ = file_times(path_);
-  const bool is_run = before_.contains(kReport);
-  if (is_run) earlier_ = listed_files(path_ / kReport);
+  const bool is_run = before_.contains(kReport) || before_.contains(kEffectiveGraph);
+  if (is_run) earlier_ = files_of_run(path_);
   if (!is_run && !force && !fs::is_empty(path_))
     throw ConfigError(Place{"--out " + path_.string()},
                       "the folder holds other things than a run; --force writes into it all the same");
+}
+
+RunFolder::RunFolder(std::filesystem::path path, const std::vector<std::string>& written)
+    : path_(std::move(path)), before_(file_times(path_)) {
+  for (const auto& name : written) before_.erase(name);
 }
 
 RunFolder::~RunFolder() {

@@ -102,6 +102,7 @@ std::string run_json(const RunReport& report) {
                {"threads", report.workers.threads()},
                {"frames", summary.frames},
                {"interrupted", summary.interrupted},
+               {"resumed", summary.resumed},
                {"wall_s", summary.wall_s},
                {"fps", summary.wall_s > 0 ? static_cast<double>(summary.frames) / summary.wall_s : 0.0},
                {"particles", belief.size()},
@@ -113,6 +114,8 @@ std::string run_json(const RunReport& report) {
     if (!belief.trajectory[best].empty()) json["last_index"] = belief.trajectory[best].last().frame;
   }
   add_accuracy(json, report.accuracy);
+  if (const auto& c = report.checkpoints; c.frame > 0)
+    json["checkpoints"] = {{"written", c.ms.size()}, {"frame", c.frame}, {"bytes", c.bytes}, {"ms_mean", mean(c.ms)}};
   json["digest"] = belief_digest(belief, report.workers);
   json["files"] = report.files;
   return json.dump(2) + "\n";

@@ -9,6 +9,13 @@
 
 namespace ppm {
 
+/// What this part of a run spent on checkpoints.
+struct CheckpointCosts {
+  std::vector<double> ms;   ///< of each
+  std::uint64_t bytes = 0;  ///< of the last
+  std::int64_t frame = 0;   ///< frames that were done at the last; 0: there is none
+};
+
 /// All that run.json tells.
 struct RunReport {
   const Graph& graph;
@@ -17,6 +24,7 @@ struct RunReport {
   const Metrics& metrics;
   const Workers& workers;
   const Accuracy& accuracy;
+  const CheckpointCosts& checkpoints;
   std::filesystem::path graph_file;
   std::vector<std::string> files;  ///< that the run has written
 };

@@ -32,13 +32,17 @@ concept SavedByFunctions = requires(RecordWriter& out, RecordReader& in, const T
   load(in, read);
 };
 
-/// Values in a row, as bytes, little endian. It takes plain types (see IsPlain), texts, vectors and optionals of what it takes, and
-/// types with functions of their own; any other is an error of the compiler.
+/// What is written as it stands in memory.
+template <class T>
+constexpr bool kAsBytes = IsPlain<T>::value && !SavedByFunctions<T>;
+
+/// Values in a row, as bytes, little endian. It takes types with functions of their own, plain types (see
+/// IsPlain), texts, and vectors and optionals of what it takes; any other is an error of the compiler.
 class RecordWriter {
  public:
   template <class T>
   void add(const T& value) {
-    if constexpr (IsPlain<T>::value) {
+    if constexpr (kAsBytes<T>) {
       append(&value, sizeof value);
     } else if constexpr (SavedByFunctions<T>) {
       save(*this, value);
@@ -54,7 +58,7 @@ class RecordWriter {
   void add(const std::vector<T>& values) {
     static_assert(!std::is_same_v<T, bool>, "std::vector<bool> has no elements to refer to");
     add(static_cast<std::uint64_t>(values.size()));
-    if constexpr (IsPlain<T>::value) {
+    if constexpr (kAsBytes<T>) {
       append(values.data(), values.size() * sizeof(T));
     } else {
       for (const auto& value : values) add(value);
@@ -88,7 +92,7 @@ class RecordReader {
   }
   template <class T>
   void take(T& value) {
-    if constexpr (IsPlain<T>::value) {
+    if constexpr (kAsBytes<T>) {
       std::memcpy(static_cast<void*>(&value), need(sizeof value), sizeof value);
     } else if constexpr (SavedByFunctions<T>) {
       load(*this, value);
@@ -102,10 +106,10 @@ class RecordReader {
   }
   template <class T>
   void take(std::vector<T>& values) {
-    const auto count = take_count(IsPlain<T>::value ? sizeof(T) : 1);
+    const auto count = take_count(kAsBytes<T> ? sizeof(T) : 1);
     values.clear();
     values.resize(count);
-    if constexpr (IsPlain<T>::value) {
+    if constexpr (kAsBytes<T>) {
       if (count > 0) std::memcpy(static_cast<void*>(values.data()), need(count * sizeof(T)), count * sizeof(T));
     } else {
       for (auto& value : values) take(value);

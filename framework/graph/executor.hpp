@@ -46,6 +46,8 @@ class Executor {
   /// Opens the nodes and puts them, the belief and the metrics into the state that save() wrote: run() goes on from
   /// there. Throws what opening throws, and DataError where the state does not fit.
   void load(RecordFileReader& file);
+  /// Frames that are done.
+  std::int64_t frames() const { return summary_.frames; }
   const ParticleSet& belief() const { return *graph_.belief_; }
 
  private:

@@ -27,20 +27,19 @@ std::vector<std::pair<std::filesystem::path, Place>> Graph::plugins(const Config
 }
 
 std::string Graph::effective_yaml() const {
-  Config root = effective();
-  if (checkpoint_every_ > 0) root.set("checkpoint_every", {}, Config::scalar(std::to_string(checkpoint_every_), {}));
-  return root.to_yaml();
+  return effective(checkpoint_every_).to_yaml();
 }
 
 std::string Graph::experiment_yaml() const {
-  return effective().to_yaml();
+  return effective(0).to_yaml();
 }
 
-Config Graph::effective() const {
+Config Graph::effective(std::int64_t checkpoint_every) const {
   auto text = [](std::string value) { return Config::scalar(std::move(value), {}); };
   Config root;
   root.set("name", {}, text(name_));
   root.set("seed", {}, text(std::to_string(seed_)));
+  if (checkpoint_every > 0) root.set("checkpoint_every", {}, text(std::to_string(checkpoint_every)));
   std::vector<Config> libraries;
   for (const auto& path : plugins_) libraries.push_back(text(path.string()));
   if (!libraries.empty()) root.set("plugins", {}, Config::sequence(std::move(libraries), {}));

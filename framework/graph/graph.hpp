@@ -68,7 +68,7 @@ class Graph {
  private:
   friend class GraphBuilder;
   friend class Executor;
-  Config effective() const;
+  Config effective(std::int64_t checkpoint_every) const;
   std::string name_;
   std::uint64_t seed_ = 0;
   std::int64_t checkpoint_every_ = 0;

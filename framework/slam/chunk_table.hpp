@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/core/cow.hpp"
+#include "framework/core/error.hpp"
 
 namespace ppm {
 
@@ -41,6 +42,15 @@ class ChunkTable {
   }
   /// The cell that a chunk was added for.
   const Cell& cell(std::size_t i) const { return index_->cell[i]; }
+  /// The cells by chunk number, null in an empty table; the same pointer in tables that share them.
+  const std::vector<Cell>* cells() const { return index_ ? &index_->cell : nullptr; }
+  /// Gives back memory that was reserved.
+  void shrink_to_fit() { chunks_.shrink_to_fit(); }
+  /// Other chunks for the same cells.
+  void replace(std::vector<Chunk> chunks) {
+    PPM_CHECK(chunks.size() == chunks_.size(), "{} chunks for {} cells", chunks.size(), chunks_.size());
+    chunks_ = std::move(chunks);
+  }
   std::uint32_t add(const Cell& cell, Chunk chunk) {
     if (!index_) index_ = Cow<Index>::make();
     auto number = static_cast<std::uint32_t>(chunks_.size());

@@ -1,6 +1,7 @@
 #include "framework/graph/registry.hpp"
 #include "framework/slam/frame.hpp"
 #include "framework/slam/particle_set.hpp"
+#include "modules/maps/ppm/ppm_codec.hpp"
 #include "modules/maps/ppm/ppm_map.hpp"
 
 namespace ppm {
@@ -64,6 +65,7 @@ class PpmEmpty final : public Module {
 }  // namespace ppm
 
 PPM_MODULES(r) {
+  r.add_map_kind<ppm::PpmCodec>("ppm");
   r.add<ppm::PpmEmpty>("map.ppm_empty",
                        "Starts the belief: particles at one pose that share one empty probabilistic mesh.",
                        "paper, sections 3 and 4");

@@ -12,6 +12,11 @@ std::int64_t bytes_of(const std::vector<T>& v) {
   return static_cast<std::int64_t>(v.capacity() * sizeof(T));
 }
 
+template <class... T>
+void shrink_each(std::vector<T>&... arrays) {
+  (arrays.shrink_to_fit(), ...);
+}
+
 }  // namespace
 
 Eigen::Vector3f Geometry::face_normal(std::size_t f) const {
@@ -27,6 +32,14 @@ Eigen::Vector3f Geometry::point(std::size_t f, float u, float v) const {
 std::uint32_t Geometry::find_vertex(std::uint32_t vertex) const {
   auto it = std::lower_bound(vertex_id.begin(), vertex_id.end(), vertex);
   return it != vertex_id.end() && *it == vertex ? static_cast<std::uint32_t>(it - vertex_id.begin()) : kNoVertex;
+}
+
+void Geometry::shrink_to_fit() {
+  shrink_each(position, normal, vertex_id, face, divisions, first_texel, open_edge);
+}
+
+void Texels::shrink_to_fit() {
+  shrink_each(mean, variance, color, color_variance, evidence);
 }
 
 std::int64_t Geometry::bytes() const {

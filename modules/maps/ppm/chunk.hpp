@@ -35,6 +35,8 @@ struct Geometry {
   /// Index of the vertex with that vertex_id, or kNoVertex. Binary search.
   std::uint32_t find_vertex(std::uint32_t vertex) const;
   static constexpr std::uint32_t kNoVertex = 0xffffffffu;
+  /// Gives back memory that was reserved: what a chunk occupies depends on its content alone, not on its history.
+  void shrink_to_fit();
   std::int64_t bytes() const;
 };
 /// An id that no geometry of this process has had. Results must not depend on its value.
@@ -77,6 +79,7 @@ struct TexelArrays {
 /// The texture of a chunk: texels lie on a triangular grid over each face, corners and edges included.
 struct Texels : TexelArrays {
   std::vector<FaceEvidence> evidence;  ///< [F]
+  void shrink_to_fit();                ///< see Geometry
   std::int64_t bytes() const;
 };
 

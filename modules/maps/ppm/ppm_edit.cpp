@@ -66,7 +66,12 @@ class PpmEdit::Commit {
     update_normals();
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-    for (auto chunk : changed_) map_.table_.edit(chunk).geometry.write().id = next_geometry_id();
+    for (auto chunk : changed_) {
+      Geometry& geometry = map_.table_.edit(chunk).geometry.write();
+      geometry.id = next_geometry_id();
+      geometry.shrink_to_fit();
+    }
+    map_.table_.shrink_to_fit();
   }
 
  private:
@@ -112,6 +117,7 @@ class PpmEdit::Commit {
     insert_vertices(geometry, vertices);
     append_faces(geometry, texels, what.added);
     if (!what.removed.empty()) drop_unused_vertices(geometry);
+    texels.shrink_to_fit();
     geometry.box = bounding_box(geometry);
   }
 

@@ -51,6 +51,7 @@ class PpmMap final : public Map {
  private:
   friend class PpmEdit;
   friend class PpmReader;
+  friend class PpmCodec;
   PpmSettings settings_;
   ChunkTable<PpmChunk> table_;
   std::uint32_t next_vertex_id_ = 0;
