@@ -88,7 +88,7 @@ TEST_CASE("heavy headers of others are included where they are wrapped, and in n
                                                            {"oneapi/", {"framework/core"}},
                                                            {"Random123/", {"framework/core"}},
                                                            {"xxhash.h", {"framework/core"}},
-                                                           {"nlohmann/", {"framework/graph", "apps"}},
+                                                           {"nlohmann/", {"framework/graph", "apps", "modules/sinks"}},
                                                            {"CLI/", {"apps"}},
                                                            {"embree", {"modules/prediction"}},
                                                            {"png.h", {"modules/sources", "modules/sinks"}},
