@@ -77,6 +77,12 @@ class PpmBayesUpdate final : public MapEditor {
     params_.add("thin_every", settings_.thin_every)
         .range(0, 1000000)
         .doc("Frames between those in which thin regions are meshed too; 0 = never.");
+    params_.add("grazing_every", settings_.grazing_every)
+        .range(0, 1000000)
+        .doc("Frames between those in which surface may be made down to grazing_cosine; 0 = never.");
+    params_.add("grazing_cosine", settings_.grazing_cosine)
+        .range(0, 1)
+        .doc("The cosine_least of those frames: surface that no view has shown less steeply.");
     params_.add("leaf_min", s.leaves.leaf_min)
         .range(1, 64)
         .doc("Smallest leaf of the quadtree, pixels; a power of two.")
@@ -148,12 +154,17 @@ class PpmBayesUpdate final : public MapEditor {
         .doc(
             "A face goes when the pixels that saw through it outnumber those that hit it by this factor and "
             "votes_free.");
+    params_.add("votes_cosine", settings_.votes.cosine_least)
+        .range(0, 1)
+        .doc("Pixels that meet a face at a smaller cosine of incidence do not speak for it.");
     params_.add("votes_free", settings_.votes.through_free)
         .range(0, 65535)
         .doc("Pixels that may see through a face before they count against it.");
-    params_.add("votes_most", settings_.votes.hits_most)
-        .range(1, 65535)
-        .doc("Hits of a face count up to here; a low value lets the map follow a scene that changes.");
+    params_.add("votes_forget", settings_.votes.forget)
+        .range(0, 1)
+        .doc(
+            "Share of a face's hits that each frame takes away in which it is only seen through: what stood for long "
+            "and left goes soon.");
   }
   void add_excess() {
     params_.add_choice("excess", settings_.excess.learn, {{"learn", true}, {"none", false}})

@@ -58,6 +58,19 @@ std::vector<FaceRef> faces_in(const PpmMap& map, float x0, float y0, float x1, f
 
 }  // namespace
 
+TEST_CASE("a face between the rays of pixels is on the boundary too") {
+  const Above above;
+  const Eigen::Vector3f between = above.view.absolute(2.0f * above.view.ray(40.5f, 30.5f));
+  PpmEdit edit(std::make_shared<const PpmMap>(cells(1)));
+  const auto a = edit.add_vertex(between), b = edit.add_vertex(between + Eigen::Vector3f(1e-3f, 0, 0)),
+             c = edit.add_vertex(between + Eigen::Vector3f(0, 1e-3f, 0));
+  const std::vector<float> mean(3, 0.0f), variance(3, 1e-6f);
+  edit.add_face({a, b, c}, 1, {mean, variance});
+  Boundary boundary;
+  boundary.build(*edit.commit(), above.view, {});
+  CHECK(open_edges(boundary) == 3);
+}
+
 TEST_CASE("the boundary is the mesh's rim, whatever chunks it is cut into") {
   const Above above;
   for (double cell : {10.0, 0.3}) {

@@ -74,3 +74,23 @@ TEST_CASE("new faces start with the mean excess over the hits in view, or with t
   const float mixed = learn_excess({{kFace, 900, 0, 0.0f}}, settings, edit);
   CHECK(mixed == Approx((900 * 4e-4 + 100 * settings.prior_sigma * settings.prior_sigma) / 1000).epsilon(0.01));
 }
+
+namespace {
+
+/// Frames of 20 pixels that see through a face with 5000 hits until it is lost.
+int frames_until_lost(bool deserted) {
+  PpmEdit edit(one_face());
+  edit.texels(0).evidence[0].hits = 5000;
+  FaceTally through{kFace, 0, 20};
+  through.deserted = deserted;
+  int frames = 1;
+  while (cast_votes({through}, {}, edit).empty()) ++frames;
+  return frames;
+}
+
+}  // namespace
+
+TEST_CASE("a face that stood for long goes soon when it is deserted, and outlives many passing edges") {
+  CHECK(frames_until_lost(true) < 30);
+  CHECK(frames_until_lost(false) > 170);
+}

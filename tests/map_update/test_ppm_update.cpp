@@ -138,6 +138,38 @@ TEST_CASE("a box that appears gets faces of its own, one that goes away is seen 
   CHECK(error(empty) < 0.03);
 }
 
+TEST_CASE("a box that stood for 200 frames is gone after 30 that see through it") {
+  const BoxWorld empty, full = room_with_box();
+  Mapper mapper;
+  const Pose pose = look({0, 0, 0.3}, 0, -0.15);
+  std::uint32_t i = 0;
+  for (; i < 3; ++i) mapper.add(empty.frame(small_camera(), pose, kSigma, i, true));
+  for (; i < 203; ++i) mapper.add(full.frame(small_camera(), pose, kSigma, i, true));
+  CHECK(agreement(mapper, full, pose, 0.97).error_m < 0.03);
+  for (; i < 233; ++i) mapper.add(empty.frame(small_camera(), pose, kSigma, i, true));
+  const auto a = agreement(mapper, empty, pose, 0.97);
+  CHECK(a.error_m < 0.03);
+  CHECK(a.coverage > 0.95);
+}
+
+TEST_CASE("somebody who walks through a room leaves nothing behind") {
+  const BoxWorld empty;
+  Mapper mapper;
+  const Pose pose = look({0, 0, -0.5});
+  std::uint32_t i = 0;
+  for (; i < 5; ++i) mapper.add(empty.frame(small_camera(), pose, kSigma, i, true));
+  for (; i < 65; ++i) {
+    BoxWorld walk;
+    const double x = -1.8 + 0.05 * (i - 5);
+    walk.boxes.emplace_back(Eigen::Vector3d(x, -0.5, 1.2), Eigen::Vector3d(x + 0.4, 1.2, 1.5));
+    mapper.add(walk.frame(small_camera(), pose, kSigma, i, true));
+  }
+  for (; i < 90; ++i) mapper.add(empty.frame(small_camera(), pose, kSigma, i, true));
+  const auto a = agreement(mapper, empty, pose, 0.97);
+  CHECK(a.error_m < 0.03);
+  CHECK(a.coverage > 0.95);
+}
+
 TEST_CASE("invariants hold after every frame of a random path through a cluttered room") {
   BoxWorld scene = room_with_box();
   Rng rng(5, 0, 0, purpose_key("path"));

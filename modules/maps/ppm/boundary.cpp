@@ -11,9 +11,7 @@ void Boundary::build(const PpmMap& map, const UpdateView& view, const std::vecto
   first_.clear();
   links_.clear();
   number_of_id_.assign(map.vertex_ids(), kNone);
-  std::vector<std::uint32_t> chunks;
-  for (const auto& c : visible_chunks(map, view.camera, view.prediction->T_map_camera)) chunks.push_back(c.chunk);
-  std::sort(chunks.begin(), chunks.end());
+  const auto chunks = chunks_in_image(map, view.camera, view.prediction->T_map_camera);
   for (auto c : chunks) read_open_edges(*map.table()[c].geometry, view);
   pair_chunk_borders();
   for (const auto& f : removed) take_away(*map.table()[f.chunk].geometry, f.face, view);

@@ -7,23 +7,35 @@
 namespace ppm {
 namespace {
 
+float cosine_at(const UpdateView& view, std::size_t p) {
+  return std::min(std::abs(view.normal[p].dot(view.point[p])) / view.point[p].norm(), 1.0f);
+}
+
 /// Squared distance of a measurement from the surface predicted at its own pixel, minus its predicted variance, m^2.
-float surplus(const UpdateView& view, std::size_t p) {
-  const float along = view.normal[p].dot(view.point[p]);
-  const float off = along - view.offset[p];
-  const float cosine = std::min(std::abs(along) / view.point[p].norm(), 1.0f);
+float surplus(const UpdateView& view, std::size_t p, float cosine) {
+  const float off = view.normal[p].dot(view.point[p]) - view.offset[p];
   const float lateral = view.lateral_px * view.depth[p] * std::abs(view.inv_fx);
   return off * off - view.prediction->variance[p] - variance_along_normal(view.sigma[p], cosine, lateral);
+}
+
+/// Pixels that see through the map in areas at least 2 radius + 1 pixels thick.
+std::vector<std::uint8_t> wide_behind(const UpdateView& view, const std::vector<std::uint8_t>& classes, int radius) {
+  std::vector<std::uint8_t> behind(classes.size());
+  const std::vector<std::uint8_t> none(classes.size());
+  for (std::size_t p = 0; p < classes.size(); ++p) behind[p] = (classes[p] & kBehind) != 0;
+  open_mask(view.cols(), view.rows(), radius, none, behind);
+  return behind;
 }
 
 }  // namespace
 
 std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view,
-                                   const std::vector<std::uint8_t>& classes) {
+                                   const std::vector<std::uint8_t>& classes, const VoteSettings& settings) {
   struct Votes {
-    std::uint16_t seen = 0, hits = 0, through = 0;
+    std::uint16_t seen = 0, hits = 0, through = 0, wide = 0;
     float surplus = 0;
   };
+  const auto wide = wide_behind(view, classes, settings.forget_radius);
   std::vector<std::vector<Votes>> votes(map.table().size());  // by chunk and face; empty for chunks that no ray met
   const Prediction& seen = *view.prediction;
   for (std::size_t p = 0; p < classes.size(); ++p) {
@@ -31,17 +43,20 @@ std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view,
     auto& chunk = votes[seen.chunk[p]];
     if (chunk.empty()) chunk.resize(map.table()[seen.chunk[p]].geometry->face.size());
     Votes& v = chunk[seen.face[p]];
-    v.seen = 1;
+    ++v.seen;
     if (classes[p] & kOwnHit) {
+      const float cosine = cosine_at(view, p);
+      if (cosine < settings.cosine_least) continue;
       ++v.hits;
-      v.surplus += surplus(view, p);
+      v.surplus += surplus(view, p, cosine);
     }
     v.through += (classes[p] & kBehind) != 0;
+    v.wide += wide[p] != 0;
   }
   std::vector<FaceTally> tallies;
   for (std::uint32_t c = 0; c < votes.size(); ++c)
     for (std::uint32_t f = 0; f < votes[c].size(); ++f)
-      if (const Votes& v = votes[c][f]; v.seen) tallies.push_back({{c, f}, v.hits, v.through, v.surplus});
+      if (const Votes& v = votes[c][f]; v.seen) tallies.push_back({{c, f}, v.hits, v.through, v.surplus, v.hits == 0 && 2 * v.wide > v.seen});
   return tallies;
 }
 
@@ -68,7 +83,8 @@ std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const Vot
   for (const auto& t : tallies) {
     if (t.hits == 0 && t.through == 0) continue;
     FaceEvidence& e = edit.texels(t.face.chunk).evidence[t.face.face];
-    e.hits = static_cast<std::uint16_t>(std::min(e.hits + t.hits, settings.hits_most));
+    if (t.deserted) e.hits -= static_cast<std::uint16_t>(settings.forget * static_cast<float>(e.hits));
+    e.hits = static_cast<std::uint16_t>(std::min(e.hits + t.hits, 65535));
     e.through = static_cast<std::uint16_t>(std::min(e.through + t.through, 65535));
     if (static_cast<float>(e.through) >
         settings.through_per_hit * static_cast<float>(e.hits) + static_cast<float>(settings.through_free))

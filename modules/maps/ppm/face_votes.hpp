@@ -11,20 +11,27 @@ namespace ppm {
 /// What one frame says of a face.
 struct FaceTally {
   FaceRef face;
-  int hits = 0;     ///< pixels that measured it
+  int hits = 0;     ///< pixels that measured it, and not at grazing incidence
   int through = 0;  ///< pixels that measured something behind it
   /// m^2: over the hits, squared distance from the predicted surface minus the variance predicted for it, summed.
   float surplus = 0;
+  /// Not hit, and most of it lies where the image sees through the map over a whole area, not only along an edge.
+  bool deserted = false;
+};
+
+struct VoteSettings {
+  /// Pixels that meet a face at a smaller cosine do not speak for it: there a gate along the normal is a long way along
+  /// the ray, and a fin over a depth jump would be confirmed by what is behind it.
+  float cosine_least = 0.3f;
+  float through_per_hit = 0.8f;  ///< a face goes when it was seen through more often than so many times its hits ...
+  int through_free = 2;          ///< ... and so many times more
+  float forget = 0.1f;  ///< share of a face's hits that each frame takes away in which it is deserted
+  int forget_radius = 3;  ///< px: areas thinner than 2 r + 1 that are seen through are edges; see FaceTally::deserted
 };
 
 /// Faces that at least one ray met, ascending, with their votes.
-std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes);
-
-struct VoteSettings {
-  float through_per_hit = 2;  ///< a face goes when it was seen through more often than so many times its hits ...
-  int through_free = 10;      ///< ... and so many times more
-  int hits_most = 65535;      ///< hits count up to here: a surface that was seen for long can still go
-};
+std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view, const std::vector<std::uint8_t>& classes,
+                                   const VoteSettings& settings);
 
 /// Adds the votes to the evidence of the faces; returns those that have lost it, ascending. They are not removed yet.
 std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const VoteSettings& settings, PpmEdit& edit);

@@ -10,7 +10,7 @@ namespace ppm {
 
 /// How far a measurement may lie from a surface, along the surface's normal, and still be of it.
 struct SurfaceGate {
-  float pose_sigma = 0.01f;      ///< m, what the pose's error and the map's own bias add
+  float pose_sigma = 0.008f;     ///< m, what the pose's error and the map's own bias add
   float map_sigma_most = 0.01f;  ///< m, the most that an uncertain texel widens the gate
   float least_cosine = 0.3f;     ///< at grazing angles the sensor's noise counts as at this cosine
 

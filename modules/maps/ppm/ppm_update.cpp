@@ -64,12 +64,11 @@ std::vector<std::uint8_t> wanted_pixels(const UpdateView& view, const std::vecto
   return wanted;
 }
 
+bool is_due(int every, std::int64_t frame) { return every > 0 && frame % every == 0; }
+
 }  // namespace
 
-void UpdateSettings::share() {
-  texels.gate = surface.triangle.gate = holes.gate = gate;
-  notches.triangle = surface.triangle;
-}
+void UpdateSettings::share() { texels.gate = surface.triangle.gate = holes.gate = gate; }
 
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame,
                                          const Prediction& prediction, const UpdateSettings& settings,
@@ -80,7 +79,7 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   classify_pixels(view, settings.gate, settings.classify_sigmas, {}, workers, classes);
 
   PpmEdit edit(std::move(map));
-  const auto tallies = tally_faces(edit.map(), view, classes);
+  const auto tallies = tally_faces(edit.map(), view, classes, settings.votes);
   const float excess = learn_excess(tallies, settings.excess, edit);
   const std::vector<FaceRef> removed = cast_votes(tallies, settings.votes, edit);
   std::vector<FaceRef> kept;
@@ -97,11 +96,14 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   Boundary boundary;
   boundary.build(edit.map(), view, removed);
   std::vector<RimFace> faces;
-  const bool thin = settings.thin_every > 0 && frame_number % settings.thin_every == 0;
-  const auto wanted = wanted_pixels(view, classes, thin ? 0 : settings.open_radius);
-  make_surface(view, classes, wanted, settings.surface, boundary, faces);
+  const auto wanted = wanted_pixels(view, classes, is_due(settings.thin_every, frame_number) ? 0 : settings.open_radius);
+  NewSurfaceSettings surface = settings.surface;
+  if (is_due(settings.grazing_every, frame_number)) surface.triangle.cosine_least = settings.grazing_cosine;
+  NotchSettings notches = settings.notches;
+  notches.triangle = surface.triangle;
+  make_surface(view, classes, wanted, surface, boundary, faces);
   const auto made = faces.size();
-  fill_notches(view, classes, settings.notches, boundary, faces);
+  fill_notches(view, classes, notches, boundary, faces);
   fill_holes(view, settings.holes, boundary, faces);
   FaceWriter writer(view, settings.texels, excess, boundary, edit);
   for (const auto& f : faces) writer.write(f);

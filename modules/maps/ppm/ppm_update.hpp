@@ -16,9 +16,12 @@ namespace ppm {
 /// How a frame changes a map; see the parameters of map_update.ppm_bayes.
 struct UpdateSettings {
   SurfaceGate gate;  ///< copied into the parts below by whoever sets it
-  float classify_sigmas = 4;
+  float classify_sigmas = 5;
   int open_radius = 2;  ///< px, of the opening that leaves thin strips of wanted pixels for later; 0 = none
-  int thin_every = 2;   ///< frames: so often thin strips are let through; 0 = never
+  int thin_every = 1;   ///< frames: so often thin strips are let through; 0 = never
+  /// frames: so often surface may be made down to grazing_cosine, where no view has shown it better; 0 = never
+  int grazing_every = 5;
+  float grazing_cosine = 0.15f;  ///< least cosine of incidence of new surface in those frames
   VoteSettings votes;
   ExcessSettings excess;
   TexelSettings texels;
@@ -26,7 +29,7 @@ struct UpdateSettings {
   NotchSettings notches;
   HoleSettings holes;
 
-  /// Gives every part the gate, and the notches the triangle test, that are set here.
+  /// Gives every part the gate that is set here. Notches take the surface's triangle test frame by frame.
   void share();
 };
 

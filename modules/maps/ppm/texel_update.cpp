@@ -65,7 +65,7 @@ void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::s
   Texels& texels = edit.texels(seen.chunk[p]);
   const float offset = normal.dot(view.point[p] - view.relative(geometry.position[geometry.face[f][0]]));
   const float excess = texels.evidence[f].added_variance();
-  const float limit = settings.gate_sigmas * settings.gate.spread(view.sigma[p], cosine, texels.variance[t]);
+  const float limit = settings.gate_sigmas * settings.gate.spread(view.sigma[p], cosine, texels.variance[t] + excess);
   if (std::abs(offset - texels.mean[t]) > limit) return;
   const float pixel = view.depth[p] * std::abs(view.inv_fx);
   fuse(texels.mean[t], texels.variance[t], offset,

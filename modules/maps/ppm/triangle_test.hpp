@@ -13,7 +13,7 @@ struct TriangleSettings {
       4;  ///< a sample fits when the measurement lies within so many gate spreads of the triangle's plane
   float fit_share = 0.75f;     ///< least share of samples that fit
   float own_share = 0.40f;     ///< most share of samples that the map explains already by their own hit
-  float cosine_least = 0.15f;  ///< least cosine between the triangle's normal and the line of sight to its centroid
+  float cosine_least = 0.3f;   ///< least cosine between the triangle's normal and the line of sight to its centroid
   float steep_cosine = 0.25f;  ///< a triangle seen at less than this must also agree with the normals at its corners: a
                                ///< slanted surface does, a bridge over a depth jump does not
   float steep_agree = 0.5f;    ///< least mean cosine between the triangle's normal and those at its corners, then

@@ -43,6 +43,12 @@ ImageRect image_of(const Eigen::AlignedBox3f& box, const Camera& camera, const P
   return rect;
 }
 
+/// Whether an image rectangle meets the image grown by `margin` px on every side.
+bool meets(const ImageRect& rect, const Camera& camera, double margin) {
+  return rect.x1 + margin >= 0 && rect.y1 + margin >= 0 && rect.x0 - margin <= camera.cols - 1 &&
+         rect.y0 - margin <= camera.rows - 1;
+}
+
 }  // namespace
 
 std::vector<VisibleChunk> visible_chunks(const PpmMap& map, const Camera& camera, const Pose& T_map_camera) {
@@ -56,8 +62,7 @@ std::vector<VisibleChunk> visible_chunks(const PpmMap& map, const Camera& camera
     if (v.distance > kInside) {
       const ImageRect rect = image_of(geometry.box, camera, T_camera_map);
       const double right = camera.cols - 1, bottom = camera.rows - 1;
-      if (!(rect.x1 + kMargin >= 0 && rect.y1 + kMargin >= 0 && rect.x0 - kMargin <= right && rect.y0 - kMargin <= bottom))
-        continue;
+      if (!meets(rect, camera, kMargin)) continue;
       v.x0 = static_cast<int>(std::ceil(std::max(rect.x0 - kMargin, 0.0)));
       v.y0 = static_cast<int>(std::ceil(std::max(rect.y0 - kMargin, 0.0)));
       v.x1 = static_cast<int>(std::floor(std::min(rect.x1 + kMargin, right)));
@@ -70,6 +75,19 @@ std::vector<VisibleChunk> visible_chunks(const PpmMap& map, const Camera& camera
     return a.distance != b.distance ? a.distance < b.distance : a.chunk < b.chunk;
   });
   return visible;
+}
+
+std::vector<std::uint32_t> chunks_in_image(const PpmMap& map, const Camera& camera, const Pose& T_map_camera) {
+  const Pose T_camera_map = T_map_camera.inverse();
+  const Eigen::Vector3f centre = T_map_camera.translation().cast<float>();
+  std::vector<std::uint32_t> chunks;
+  for (std::uint32_t i = 0; i < map.table().size(); ++i) {
+    const Geometry& geometry = *map.table()[i].geometry;
+    if (geometry.face.empty()) continue;
+    if (geometry.box.exteriorDistance(centre) <= kInside || meets(image_of(geometry.box, camera, T_camera_map), camera, 1))
+      chunks.push_back(i);
+  }
+  return chunks;
 }
 
 }  // namespace ppm

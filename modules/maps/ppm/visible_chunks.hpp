@@ -21,4 +21,8 @@ struct VisibleChunk {
 /// The chunks with faces whose box meets the view, nearest first (equal distances: lower number first). Never too few.
 std::vector<VisibleChunk> visible_chunks(const PpmMap& map, const Camera& camera, const Pose& T_map_camera);
 
+/// The chunks with faces whose box meets the image, grown by a pixel on every side, ascending: also those that lie
+/// between the rays of pixels, which no ray can meet.
+std::vector<std::uint32_t> chunks_in_image(const PpmMap& map, const Camera& camera, const Pose& T_map_camera);
+
 }  // namespace ppm
