@@ -5,7 +5,8 @@ packages=(
   build-essential cmake ninja-build ccache mold pkg-config git
   libeigen3-dev libembree-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   libtbb-dev librandom123-dev libpng-dev libjpeg-dev zlib1g-dev libxxhash-dev libboost-dev
-  catch2 libopenmesh-dev libbenchmark-dev libmrpt-bayes-dev jq
+  libopenvdb-dev libboost-iostreams-dev
+  catch2 libopenmesh-dev libtinygltf-dev libbenchmark-dev libmrpt-bayes-dev jq
 )
 missing=()
 for p in "${packages[@]}"; do

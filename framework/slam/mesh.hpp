@@ -12,6 +12,7 @@ struct Mesh {
   std::vector<Eigen::Vector3f> normal;    ///< unit, per vertex
   std::vector<float> mean;                ///< m along the normal, per vertex
   std::vector<float> variance;            ///< m^2, per vertex
+  std::vector<Eigen::Vector3f> color;     ///< RGB in [0, 1] as displayed, per vertex; empty where the map has none
   std::vector<std::array<std::uint32_t, 3>> face;
 };
 

@@ -1,86 +1,85 @@
-#include <array>
+#include <algorithm>
 #include <string>
 
 #include "framework/core/atomic_file.hpp"
 #include "framework/graph/registry.hpp"
 #include "framework/slam/particle_set.hpp"
-#include "modules/sinks/mesh_renderer.hpp"
+#include "modules/maps/picture/map_picture.hpp"
+#include "modules/maps/picture/path_drawing.hpp"
+#include "modules/maps/picture/png_encoder.hpp"
+#include "modules/sinks/color_params.hpp"
 #include "modules/sinks/output_name.hpp"
-#include "modules/sinks/overview.hpp"
-#include "modules/sinks/path_drawing.hpp"
-#include "modules/sinks/png_encoder.hpp"
 
 namespace ppm {
 namespace {
 
-enum class Up { automatic, x, minus_x, y, minus_y, z, minus_z };
+enum class From { outside, camera };
 
-/// Draws the best particle's map and the particles' paths from outside, whenever the node runs. Needs no display.
+std::vector<Pose> poses_of(const Trajectory& trajectory) {
+  std::vector<Pose> poses;
+  for (const auto& pose : trajectory.poses()) poses.push_back(pose.T_map_camera);
+  return poses;
+}
+
+/// The paths of all particles thinly, each once, under the best one's.
+void draw_paths(Canvas& canvas, const ParticleSet& belief, const std::vector<Pose>& best, double scale) {
+  std::vector<std::vector<Eigen::Vector3d>> lines;
+  for (auto path = belief.trajectory.begin(); path != belief.trajectory.end(); ++path) {
+    if (std::find(belief.trajectory.begin(), path, *path) != path) continue;
+    auto& line = lines.emplace_back();
+    for (const auto& T : poses_of(*path)) line.push_back(T.translation());
+  }
+  canvas.polylines(lines, {{0.25f, 0.35f, 0.60f}, 1.0 * scale, 0.35f, 0.12f});
+  draw_path(canvas, best, scale);
+}
+
+/// Draws the best particle's map and the particles' paths, whenever the node runs. Needs no display.
 class MapImage final : public Module {
  public:
   In<Belief> belief{this, {{"belief", "map.*"}, {}, {}}};
 
   MapImage() {
     params_.add("file", file_).doc(kOutputNameDoc);
-    params_.add("cols", cols_).range(16, 8192).doc("Width of the picture.");
-    params_.add("rows", rows_).range(16, 8192).doc("Height of the picture.");
-    params_
-        .add_choice(
-            "color", color_,
-            {{"shaded", MeshColor::shaded}, {"uncertainty", MeshColor::uncertainty}, {"normals", MeshColor::normals}})
-        .doc(
-            "What colours say: a lit surface tinted by height; the standard deviation of the surface's offset, 0.2 mm "
-            "(blue) to 5 cm (red), logarithmic; or the direction of normals.");
+    params_.add("cols", settings_.cols).range(16, 8192).doc("Width of the picture.");
+    params_.add("rows", settings_.rows).range(16, 8192).doc("Height of the picture.");
+    colors_.declare(params_);
     params_.add_choice("surface", surface_, {{"base", Surface::base}, {"displaced", Surface::displaced}})
-        .doc("The elements as they are, or moved by the means of their texels.");
-    params_.add("azimuth", azimuth_)
+        .doc("The elements as they are, or the surface that the map describes.");
+    params_.add_choice("from", from_, {{"outside", From::outside}, {"camera", From::camera}})
+        .doc("Where the view is from: outside and above, showing all; or the camera's pose.");
+    params_.add("azimuth", settings_.azimuth_rad)
         .unit("rad")
         .range(-7, 7)
-        .doc("Where the view is from: angle to the direction of the walls, in the quarter that shows most surface.");
-    params_.add("elevation", elevation_).unit("rad").range(0, 1.57).doc("Height of the view above the horizon.");
-    params_
-        .add_choice("up", up_,
-                    {{"auto", Up::automatic},
-                     {"x", Up::x},
-                     {"-x", Up::minus_x},
-                     {"y", Up::y},
-                     {"-y", Up::minus_y},
-                     {"z", Up::z},
-                     {"-z", Up::minus_z}})
+        .doc("From outside: angle to the direction of the walls, in the quarter that shows most surface.");
+    params_.add("elevation", settings_.elevation_rad)
+        .unit("rad")
+        .range(0, 1.57)
+        .doc("From outside: height of the view above the horizon.");
+    params_.add_choice("up", settings_.up, up_names())
         .doc("The map frame's axis that points upwards; auto: found from the cameras' attitude and the floor.");
     params_.add("paths", paths_).doc("Draws the paths.");
+    params_.add("edges", settings_.edges).doc("Draws the edges of the faces.");
   }
 
   void tick(Context& context) override {
     const auto best = belief->best();
     const Mesh mesh = belief->map[best]->mesh(surface_);
-    std::vector<Pose> path;
-    for (const auto& pose : belief->trajectory[best].poses()) path.push_back(pose.T_map_camera);
-    const Eigen::Vector3d up = up_direction(mesh, path);
-    const View view = overview(mesh, path, up, azimuth_, elevation_, cols_, rows_);
-    Canvas canvas(view.camera, view.T_map_camera, kSamples);
-    draw_mesh(canvas, mesh, color_, up.cast<float>());
-    canvas.shade_depth_edges(kDepthEdges);
-    if (paths_) draw_paths(canvas, *belief, rows_ / 960.0);
-    const auto image = canvas.resolve(Color(1, 1, 1), Color(0.90f, 0.92f, 0.95f));
+    const std::vector<Pose> path = poses_of(belief->trajectory[best]);
+    PictureSettings settings = settings_;
+    settings.show = colors_.show(mesh, context);
+    settings.range = colors_.range();
+    if (from_ == From::camera && !path.empty()) settings.T_map_camera = path.back();
+    const auto draw = [&](Canvas& canvas) { draw_paths(canvas, *belief, path, settings.rows / 960.0); };
+    const auto image = map_picture(mesh, path, settings, paths_ ? std::function<void(Canvas&)>(draw) : nullptr);
     write_file(context.output(output_name(file_, context.frame())), to_png(image));
   }
 
  private:
-  Eigen::Vector3d up_direction(const Mesh& mesh, const std::vector<Pose>& path) const {
-    if (up_ == Up::automatic) return estimate_up(mesh, path);
-    const int number = static_cast<int>(up_) - 1;
-    return Eigen::Vector3d::Unit(number / 2) * (number % 2 == 0 ? 1.0 : -1.0);
-  }
-
-  static constexpr int kSamples = 3;  // per pixel and axis
-  static constexpr float kDepthEdges = 12;
   std::string file_ = "map.png";
-  int cols_ = 1280, rows_ = 960;
-  MeshColor color_ = MeshColor::shaded;
+  PictureSettings settings_;
+  ColorParams colors_{Show::shaded};
   Surface surface_ = Surface::displaced;
-  double azimuth_ = 0.6, elevation_ = 0.75;
-  Up up_ = Up::automatic;
+  From from_ = From::outside;
   bool paths_ = true;
 };
 

@@ -31,7 +31,7 @@ void runs_as_it_did(const Golden& golden) {
   CHECK(json["trajectory"]["ate_rmse_m"].get<double>() <= golden.ate_m);
   CHECK(json["holdout"]["coverage"].get<double>() >= golden.coverage);
   CHECK(json["holdout"]["median_mm"].get<double>() <= golden.median_mm);
-  for (const char* file : {"map.ply", "map.ppm", "map.png", "metrics.csv", "trajectory.tum", "config.effective.yaml"})
+  for (const char* file : {"map.ply", "map.ppm", "map.glb", "map.png", "metrics.csv", "trajectory.tum", "config.effective.yaml"})
     CHECK(std::filesystem::file_size(out / file) > 0);
 }
 

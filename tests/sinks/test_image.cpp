@@ -42,9 +42,9 @@ TEST_CASE("sink.image draws map and paths, in each of its colours, the same each
   const auto map =
       test::height_field(20, 15, 0.1f, {}, [](float x, float y) { return 0.3f * std::sin(3 * x) * std::sin(3 * y); });
   std::set<std::string> different;
-  for (const std::string color : {"shaded", "uncertainty", "normals"}) {
+  for (const std::string color : {"shaded", "sigma", "mean", "normal"}) {
     for (const std::string name : {"a.png", "b.png"}) {
-      Harness h(registry, "sink.image", "{cols: 160, rows: 120, up: z, color: " + color + ", file: " + name + "}", 1, 1,
+      Harness h(registry, "sink.image", "{cols: 160, rows: 120, up: z, show: " + color + ", file: " + name + "}", 1, 1,
                 dir.path());
       h.belief().init(3, Pose::Identity(), map);
       for (std::size_t i = 0; i < 3; ++i)
@@ -62,7 +62,7 @@ TEST_CASE("sink.image draws map and paths, in each of its colours, the same each
     CHECK(bytes_of(dir / "a.png") == bytes_of(dir / "b.png"));
     different.insert(bytes_of(dir / "a.png"));
   }
-  CHECK(different.size() == 3);
+  CHECK(different.size() == 4);
 }
 
 TEST_CASE("sink.image draws an empty map as an empty picture") {

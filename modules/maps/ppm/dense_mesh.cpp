@@ -1,7 +1,7 @@
 #include "modules/maps/ppm/dense_mesh.hpp"
 
+#include "modules/maps/ppm/face_texels.hpp"
 #include "modules/maps/ppm/face_tiling.hpp"
-#include "modules/maps/ppm/offset_fusion.hpp"
 #include "modules/maps/ppm/welding.hpp"
 
 namespace ppm {
@@ -15,40 +15,18 @@ void for_each_face(const PpmMap& map, F f) {
     for (std::uint32_t face = 0; face < chunk.geometry->face.size(); ++face) f(number++, chunk, face);
 }
 
-/// The texels of one face.
-class FaceTexels {
- public:
-  FaceTexels(const PpmChunk& chunk, std::uint32_t face)
-      : n_(chunk.geometry->divisions[face]),
-        mean_(&chunk.texels->mean[chunk.geometry->first_texel[face]]),
-        variance_(&chunk.texels->variance[chunk.geometry->first_texel[face]]),
-        normal_(chunk.geometry->face_normal(face)) {}
-
-  void add_inside(std::uint32_t i, std::uint32_t j, const Eigen::Vector3f& normal, OffsetFusion& fusion) const {
-    const auto t = texel_index(n_, i, j);
-    fusion.add(mean_[t], variance_[t], normal_.dot(normal));
+/// Gives the vertices from `first` on what their texels say.
+void write(const std::vector<MeshNode>& nodes, std::size_t first, bool colored, Mesh& mesh) {
+  const std::size_t last = first + nodes.size();
+  mesh.mean.resize(last);
+  mesh.variance.resize(last);
+  if (colored) mesh.color.resize(last);
+  for (std::size_t v = first; v < last; ++v) {
+    const MeshNode& node = nodes[v - first];
+    mesh.mean[v] = node.offset.offset();
+    mesh.variance[v] = node.offset.variance();
+    if (colored) mesh.color[v] = node.color.color();
   }
-  /// At the share s of side k, between two texels.
-  void add_on_side(std::uint32_t k, double s, const Eigen::Vector3f& normal, OffsetFusion& fusion) const {
-    const double x = s * n_;
-    const auto before = std::min(static_cast<std::uint32_t>(x), n_ - 1);
-    const double w = x - before;
-    const auto a = on_side(k, before), b = on_side(k, before + 1);
-    fusion.add((1 - w) * mean_[a] + w * mean_[b], (1 - w) * variance_[a] + w * variance_[b], normal_.dot(normal));
-  }
-
- private:
-  std::uint32_t on_side(std::uint32_t k, std::uint32_t s) const {
-    return k == 0 ? texel_index(n_, s, 0) : k == 1 ? texel_index(n_, n_ - s, s) : texel_index(n_, 0, n_ - s);
-  }
-  std::uint32_t n_;
-  const float *mean_, *variance_;
-  Eigen::Vector3f normal_;
-};
-
-void write(const OffsetFusion& fusion, std::size_t vertex, Mesh& mesh) {
-  mesh.mean[vertex] = fusion.offset();
-  mesh.variance[vertex] = fusion.variance();
 }
 
 /// Area-weighted normals of a mesh whose vertices have moved.
@@ -86,10 +64,9 @@ class DenseMesh {
       take_sides(number, chunk, face);
       take_inside(number, chunk, face);
     });
-    mesh_.mean.resize(nodes());
-    mesh_.variance.resize(nodes());
-    for (std::size_t v = 0; v < shared_.size(); ++v) write(shared_[v], v, mesh_);
-    for (std::size_t v = 0; v < inside_.size(); ++v) write(inside_[v], shared_.size() + v, mesh_);
+    const bool colored = map_.settings().color_channels > 0;
+    write(shared_, 0, colored, mesh_);
+    write(inside_, shared_.size(), colored, mesh_);
     for (std::size_t v = 0; v < nodes(); ++v) mesh_.position[v] += mesh_.mean[v] * mesh_.normal[v];
     recompute_normals(mesh_);
     return std::move(mesh_);
@@ -140,7 +117,7 @@ class DenseMesh {
       for (std::uint32_t j = 1; i + j < n; ++j) {
         add_node(welding_.face[number], static_cast<float>(i) / static_cast<float>(n),
                  static_cast<float>(j) / static_cast<float>(n));
-        texels.add_inside(i, j, mesh_.normal.back(), inside_.emplace_back());
+        texels.add(i, j, mesh_.normal.back(), inside_.emplace_back());
       }
     tile_face(nodes_, mesh_.face);
   }
@@ -149,7 +126,7 @@ class DenseMesh {
   Welding welding_;
   Mesh mesh_;
   std::vector<std::uint32_t> first_on_edge_;  // [E]
-  std::vector<OffsetFusion> shared_, inside_;
+  std::vector<MeshNode> shared_, inside_;
   FaceNodes nodes_;  // of the face at hand
 };
 
@@ -157,21 +134,19 @@ class DenseMesh {
 
 Mesh base_mesh(const PpmMap& map) {
   Welding welding = weld(map, WeldEdges::no);
-  std::vector<OffsetFusion> fusion(welding.position.size());
+  std::vector<MeshNode> nodes(welding.position.size());
   for_each_face(map, [&](auto number, const auto& chunk, auto face) {
     const FaceTexels texels(chunk, face);
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto v = welding.face[number][k];
-      texels.add_on_side(k, 0, welding.normal[v], fusion[v]);
+      texels.add_on_side(k, 0, welding.normal[v], nodes[v]);
     }
   });
   Mesh mesh;
   mesh.position = std::move(welding.position);
   mesh.normal = std::move(welding.normal);
   mesh.face = std::move(welding.face);
-  mesh.mean.resize(fusion.size());
-  mesh.variance.resize(fusion.size());
-  for (std::size_t v = 0; v < fusion.size(); ++v) write(fusion[v], v, mesh);
+  write(nodes, 0, map.settings().color_channels > 0, mesh);
   return mesh;
 }
 

@@ -1,4 +1,4 @@
-#include "modules/sinks/canvas.hpp"
+#include "modules/maps/picture/canvas.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -130,7 +130,7 @@ void Canvas::segment(Eigen::Vector3d p, Eigen::Vector3d q, const Pen& pen) {
       const auto i = at(x, y);
       if ((a + t * ab - at_px).squaredNorm() > radius * radius || stroke_[i] == strokes_) continue;
       stroke_[i] = strokes_;
-      const double z = 1 / ((1 - t) / p.z() + t / q.z());
+      const double z = (1 - pen.lift) / ((1 - t) / p.z() + t / q.z());
       const float alpha = z <= depth_[i] ? pen.opacity : pen.opacity_hidden;
       const float under = coverage_[i] * (1 - alpha);  // what is below keeps its share, the background its own
       coverage_[i] = alpha + under;

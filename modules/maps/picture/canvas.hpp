@@ -7,16 +7,9 @@
 
 #include "framework/core/se3.hpp"
 #include "framework/slam/camera.hpp"
+#include "modules/maps/picture/rgb_image.hpp"
 
 namespace ppm {
-
-/// Red, green, blue in [0, 1], as displayed (no gamma).
-using Color = Eigen::Vector3f;
-
-struct RgbImage {
-  int cols = 0, rows = 0;
-  std::vector<std::uint8_t> rgb;  ///< [rows*cols*3], row-major
-};
 
 struct ColoredPoint {
   Eigen::Vector3f position;  ///< m, map frame
@@ -29,6 +22,7 @@ struct Pen {
   double width_px = 1;
   float opacity = 1;         ///< where nothing is in front of it
   float opacity_hidden = 0;  ///< where a surface is in front of it
+  double lift = 0;           ///< share of its depth by which a line is drawn nearer, to lie over its own surface
 };
 
 /// A picture that is drawn by software: triangles with a depth buffer, lines over them, anti-aliased by `samples` x

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "modules/sinks/canvas.hpp"
+#include "modules/maps/picture/canvas.hpp"
 
 using namespace ppm;
 

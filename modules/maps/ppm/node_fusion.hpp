@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
 
@@ -7,7 +8,7 @@ namespace ppm {
 /// What the texels of several faces say where they meet: how far the surface lies along one common normal.
 class OffsetFusion {
  public:
-  /// mean, variance: of a texel, along its face's normal; cosine: between that and the common normal.
+  /// mean, variance: of the surface at a texel, along its face's normal; cosine: between that and the common normal.
   void add(double mean, double variance, double cosine) {
     const double c = std::max(cosine, kCosineLeast);
     information_ += 1 / variance;
@@ -24,6 +25,20 @@ class OffsetFusion {
  private:
   static constexpr double kCosineLeast = 0.5;  // a texel across a sharp crease pushes no further than twice its mean
   double information_ = 0, moved_ = 0, reach_ = 0, count_ = 0;
+};
+
+/// Their colour: the information-weighted mean.
+class ColorFusion {
+ public:
+  void add(const Eigen::Vector3d& color, double variance) {
+    information_ += 1 / variance;
+    weighted_ += color / variance;
+  }
+  Eigen::Vector3f color() const { return (weighted_ / information_).cast<float>(); }
+
+ private:
+  double information_ = 0;
+  Eigen::Vector3d weighted_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace ppm

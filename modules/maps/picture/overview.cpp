@@ -1,4 +1,4 @@
-#include "modules/sinks/overview.hpp"
+#include "modules/maps/picture/overview.hpp"
 
 #include <algorithm>
 #include <array>

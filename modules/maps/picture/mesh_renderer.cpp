@@ -1,7 +1,9 @@
-#include "modules/sinks/mesh_renderer.hpp"
+#include "modules/maps/picture/mesh_renderer.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "framework/core/error.hpp"
 
 namespace ppm {
 namespace {
@@ -92,32 +94,19 @@ std::pair<float, float> height_range(const Mesh& mesh, const Eigen::Vector3f& up
 
 }  // namespace
 
-Color uncertainty_color(float sigma_m) {
-  static constexpr std::array<std::array<float, 3>, 5> kStops{{{0.22f, 0.34f, 0.68f},
-                                                               {0.24f, 0.64f, 0.72f},
-                                                               {0.60f, 0.80f, 0.48f},
-                                                               {0.97f, 0.84f, 0.33f},
-                                                               {0.85f, 0.25f, 0.15f}}};
-  constexpr float kLow = 0.0002f, kHigh = 0.05f;
-  return ramp(kStops, std::log(std::max(sigma_m, kLow) / kLow) / std::log(kHigh / kLow));
-}
-
-void draw_mesh(Canvas& canvas, const Mesh& mesh, MeshColor color, const Eigen::Vector3f& up) {
+void draw_mesh(Canvas& canvas, const Mesh& mesh, Show show, const std::optional<ColorScale>& scale,
+               const Eigen::Vector3f& up) {
   if (mesh.face.empty()) return;
   const Fans fans = fans_of(mesh);
   const auto normals = face_normals(mesh);
   const Lights lights(up);
   const auto [low, high] = height_range(mesh, up);
+  const auto colors = vertex_colors(mesh, show, scale);
+  PPM_CHECK(show == Show::shaded || !colors.empty(), "a mesh without {}", to_string(show));
   auto color_at = [&, low = low, high = high](std::uint32_t v, const Eigen::Vector3f& n) -> Color {
-    switch (color) {
-      case MeshColor::uncertainty:
-        return (0.35f + 0.65f * lights.at(n)) * uncertainty_color(std::sqrt(mesh.variance[v]));
-      case MeshColor::normals:
-        return 0.5f * (n + Color::Ones());
-      case MeshColor::shaded:
-        break;
-    }
-    return lights.at(n) * height_color((mesh.position[v].dot(up) - low) / (high - low));
+    if (show == Show::normal) return normal_color(n);
+    if (show == Show::shaded) return lights.at(n) * height_color((mesh.position[v].dot(up) - low) / (high - low));
+    return (0.55f + 0.45f * lights.at(n)) * colors[v];
   };
   for (std::uint32_t f = 0; f < mesh.face.size(); ++f) {
     std::array<ColoredPoint, 3> corners;
@@ -127,6 +116,13 @@ void draw_mesh(Canvas& canvas, const Mesh& mesh, MeshColor color, const Eigen::V
     }
     canvas.triangle(corners);
   }
+}
+
+void draw_edges(Canvas& canvas, const Mesh& mesh, double width_px) {
+  std::vector<std::vector<Eigen::Vector3d>> lines;
+  auto at = [&](std::uint32_t v) -> Eigen::Vector3d { return mesh.position[v].cast<double>(); };
+  for (const auto& [a, b, c] : mesh.face) lines.push_back({at(a), at(b), at(c), at(a)});
+  canvas.polylines(lines, {{0.1f, 0.1f, 0.12f}, width_px, 0.6f, 0, 0.003});
 }
 
 }  // namespace ppm

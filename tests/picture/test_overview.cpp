@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
-#include "modules/sinks/canvas.hpp"
-#include "modules/sinks/mesh_renderer.hpp"
-#include "modules/sinks/overview.hpp"
-#include "modules/sinks/path_drawing.hpp"
+#include "modules/maps/picture/canvas.hpp"
+#include "modules/maps/picture/mesh_renderer.hpp"
+#include "modules/maps/picture/overview.hpp"
+#include "modules/maps/picture/path_drawing.hpp"
 #include "tests/support/box_room.hpp"
 
 using namespace ppm;
@@ -64,7 +64,7 @@ TEST_CASE("an overview contains the room, fills the picture, and looks into the 
     CHECK(std::max(box.sizes().x() / cols, box.sizes().y() / rows) > 0.85);
 
     Canvas canvas(view.camera, view.T_map_camera, 1);
-    draw_mesh(canvas, mesh, MeshColor::shaded, Eigen::Vector3f::UnitZ());
+    draw_mesh(canvas, mesh, Show::shaded, std::nullopt, Eigen::Vector3f::UnitZ());
     // Neither ceiling nor near walls stand before the middle of the floor.
     const Eigen::Vector3d floor = view.T_map_camera.inverse() * Eigen::Vector3d(2.5, 2, 0);
     const Eigen::Vector2d at = view.camera.project(floor);
@@ -87,13 +87,6 @@ TEST_CASE("an overview of nothing, of a point, and from straight above is still 
   CHECK(is_finite(overview({}, {Pose::Identity()}, Eigen::Vector3d::UnitZ(), 0.6, 0.75, 64, 48).T_map_camera));
   CHECK(is_finite(
       overview(test::box_room(2, 2, 2), {}, Eigen::Vector3d::UnitZ(), 0.6, 1.57079632679489662, 64, 48).T_map_camera));
-}
-
-TEST_CASE("uncertainty has a scale of its own") {
-  CHECK(uncertainty_color(0.0001f) == uncertainty_color(0.0002f));
-  CHECK(uncertainty_color(0.05f) == uncertainty_color(1.0f));
-  CHECK(uncertainty_color(0.0002f).z() > uncertainty_color(0.0002f).x());  // certain is blue
-  CHECK(uncertainty_color(0.05f).x() > uncertainty_color(0.05f).z());      // uncertain is red
 }
 
 TEST_CASE("a frustum stands at its camera and opens forwards") {
