@@ -46,8 +46,10 @@ class Remesh final : public MapEditor {
   void add_how() {
     params_.add_choice("split", settings_.form, {{"bisect", SplitForm::bisect}, {"insert", SplitForm::insert}})
         .doc(
-            "Where the vertex goes: bisect divides the longest edge around the face in its middle, with both its faces, "
-            "so that no slivers arise; insert divides the face into three where its error is largest (the paper's form).");
+            "Where the vertex goes: bisect divides the longest edge around the face in its middle, with both its "
+            "faces, "
+            "so that no slivers arise; insert divides the face into three where its error is largest (the paper's "
+            "form).");
     params_.add("edge_least", settings_.edge_least)
         .unit("m")
         .range(0, 1000)
@@ -64,7 +66,8 @@ class Remesh final : public MapEditor {
 }  // namespace
 
 PPM_MODULES(r) {
-  r.add<Remesh>("refinement.remesh",
-                "Inserts vertices where the texels say with certainty that a face should bend, and divides the faces there.",
-                "paper, section 4.3; Rivara, Int. J. Numer. Meth. Engng. 1997 (longest-edge bisection)");
+  r.add<Remesh>(
+      "refinement.remesh",
+      "Inserts vertices where the texels say with certainty that a face should bend, and divides the faces there.",
+      "paper, section 4.3; Rivara, Int. J. Numer. Meth. Engng. 1997 (longest-edge bisection)");
 }

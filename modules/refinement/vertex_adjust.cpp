@@ -55,13 +55,15 @@ class VertexAdjust final : public MapEditor {
         .doc("Texels up to so many steps from a vertex count as around it; 0 = those that lie on it.");
     params_.add_choice("mean", mean_, {{"information", Mean::information}, {"plain", Mean::plain}})
         .doc(
-            "Of the texels around a vertex: weighted by their information and by how far their face's normal shows along "
+            "Of the texels around a vertex: weighted by their information and by how far their face's normal shows "
+            "along "
             "the vertex's, or plain (the paper's form).");
     params_.add_choice("boundary", boundary_, {{"keep", Boundary::keep}, {"move", Boundary::move}})
         .doc("Whether vertices on the boundary of the mesh stay: texels on silhouettes are the least certain.");
     params_.add_choice("texels", texels_, {{"reexpress", Texels::reexpress}, {"keep", Texels::keep}})
         .doc(
-            "reexpress measures the texels' means from the faces as they are then, so that the described surface stays; "
+            "reexpress measures the texels' means from the faces as they are then, so that the described surface "
+            "stays; "
             "keep leaves the means as they are: the surface moves with the vertices.");
   }
   static void report(Context& context, const AdjustCounts& counts) {

@@ -46,6 +46,7 @@ TEST_CASE("the kitchen's graphs run a few frames") {
   if (!data) return;
   const std::string path = "camera.path=" + data->string();
   runs_as_it_did({"kitchen_mapping.yaml", {"--set", path}, 1e-6, 0.9, 12});
+  runs_as_it_did({"kitchen_mapping_paper.yaml", {"--set", path}, 1e-6, 0.88, 12});
   runs_as_it_did({"kitchen_slam.yaml", {"--set", path, "--set", "init.particles=20"}, 0.03, 0.9, 25});
   runs_as_it_did({"kitchen_slam_paper.yaml", {"--set", path, "--set", "init.particles=20"}, 0.1, 0.7, 100});
 }

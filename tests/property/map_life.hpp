@@ -14,8 +14,8 @@
 
 namespace ppm::test {
 
-/// Particles whose maps live as in a run, in random order: updated from noisy images of a room with a box, adjusted,
-/// remeshed, and copied by resampling.
+/// Particles whose maps live as in a run, in random order: updated from noisy images, at wrong poses, of a room with a
+/// box, adjusted, remeshed, and copied by resampling.
 class MapLife {
  public:
   enum class Event { update, adjust, remesh, gather };
@@ -27,7 +27,9 @@ class MapLife {
     belief_.init(3, Pose::Identity(), std::make_shared<const PpmMap>(settings));
     world_.boxes.push_back({Eigen::Vector3d(-0.4, -0.3, 1.2), Eigen::Vector3d(0.3, 0.4, 1.7)});
     update_.share();
-    adjust_.least = 0.002f;
+    adjust_.least = 0.0005f;
+    adjust_.sigmas = 1;
+    adjust_.boundary = true;
     remesh_.bend.least = 0.006f;
     remesh_.bend.sigmas = 2;
   }
@@ -43,7 +45,10 @@ class MapLife {
   Event step() {
     particle_ = rng_.below(static_cast<std::uint32_t>(belief_.size()));
     const auto choice = rng_.below(10);
-    const Event event = choice < 4 ? Event::update : choice < 6 ? Event::adjust : choice < 9 ? Event::remesh : Event::gather;
+    const Event event = choice < 4   ? Event::update
+                        : choice < 6 ? Event::adjust
+                        : choice < 9 ? Event::remesh
+                                     : Event::gather;
     if (event == Event::gather) {
       belief_.gather({particle_, rng_.below(3), rng_.below(3)});
       return event;
@@ -59,12 +64,13 @@ class MapLife {
   std::shared_ptr<const PpmMap> update(std::shared_ptr<const PpmMap> map) {
     const Pose pose = look({0.6 * rng_.uniform() - 0.3, 0.4 * rng_.uniform() - 0.2, 0.4 * rng_.uniform() - 0.2},
                            0.8 * rng_.uniform() - 0.4, 0.4 * rng_.uniform() - 0.2);
-    const Frame frame = world_.frame(small_camera(), pose, 0.006, frames_, true);
+    const Pose wrong = pose * Eigen::Translation3d(0.01 * rng_.normal(), 0.01 * rng_.normal(), 0.01 * rng_.normal());
+    const Frame frame = world_.frame(small_camera(), wrong, 0.006, frames_, true);
     scenes_.update({map.get()}, workers_);
     Prediction seen;
     seen.reset(frame.camera, 1, pose);
-    trace_view(*map, scenes_.of(*map), EmbreeViewOptions{}, seen);
-    return update_map(std::move(map), frame, seen, update_, frames_++);
+    trace_view(*map, scenes_.of(*map), EmbreeViewOptions{}, all_rows(seen.camera), seen);
+    return update_map(std::move(map), frame, seen, update_, frames_++, workers_);
   }
   std::shared_ptr<const PpmMap> adjust(std::shared_ptr<const PpmMap> map) {
     AdjustCounts counts;

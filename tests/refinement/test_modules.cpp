@@ -39,8 +39,9 @@ TEST_CASE("refinement.vertex_adjust does what adjust_vertices does, once for eac
 }
 
 TEST_CASE("refinement.vertex_adjust has the paper's form") {
-  const auto maps = run("refinement.vertex_adjust",
-                        "{offset_sigmas: 0, offset_least: 0, mean: plain, boundary: move, texels: keep, turn_most: 1.4}");
+  const auto maps =
+      run("refinement.vertex_adjust",
+          "{offset_sigmas: 0, offset_least: 0, mean: plain, boundary: move, texels: keep, turn_most: 1.4}");
   AdjustSettings settings;
   settings.sigmas = settings.least = 0;
   settings.weighted = settings.reexpress = false;

@@ -12,7 +12,8 @@ namespace {
 
 /// The described surface before and after, seen from above.
 test::SurfaceJump jump_of(const PpmMap& before, const PpmMap& after) {
-  return surface_jump(DescribedRays(before), DescribedRays(after), {0.6, 0.6, 2}, -Eigen::Vector3d::UnitZ(), 0.25, 400, 1);
+  return surface_jump(DescribedRays(before), DescribedRays(after), {0.6, 0.6, 2}, -Eigen::Vector3d::UnitZ(), 0.25, 400,
+                      1);
 }
 bool on_border(const Eigen::Vector3f& p) {
   return p.x() < 0.01f || p.y() < 0.01f || p.x() > 1.19f || p.y() > 1.19f;

@@ -1,11 +1,11 @@
 #include "modules/maps/ppm/face_split.hpp"
 
-#include <cmath>
+#include "modules/maps/ppm/texel_resample.hpp"
 
 namespace ppm {
 namespace {
 
-FaceCorners corners_of(const FaceCorners& face, const FacePart& part, const Eigen::Vector3f& place) {
+FaceCorners part_corners(const FaceCorners& face, const FacePart& part, const Eigen::Vector3f& place) {
   FaceCorners corner;
   for (std::size_t k = 0; k < 3; ++k) corner[k] = part.corner[k] == FacePart::kNew ? place : face[part.corner[k]];
   return corner;
@@ -15,62 +15,54 @@ Eigen::Vector3f twice_area(const FaceCorners& c) {
   return (c[1] - c[0]).cross(c[2] - c[0]);
 }
 
-/// Hands out a count by area, so that the shares add up to it.
-class Shares {
- public:
-  Shares(std::uint16_t count, float whole) : count_(count), whole_(whole) {}
-  std::uint16_t next(float part) {
-    done_ += part;
-    const auto upto = static_cast<int>(std::lround(std::min(done_ / whole_, 1.0f) * static_cast<float>(count_)));
-    return static_cast<std::uint16_t>(upto - std::exchange(given_, upto));
+/// The vertices of a part, known to the session.
+std::array<std::uint32_t, 3> part_ids(PpmEdit& edit, const FaceCut& cut, const FacePart& part, std::uint32_t new_id) {
+  const Geometry& geometry = *edit.map().table()[cut.face.chunk].geometry;
+  std::array<std::uint32_t, 3> ids;
+  for (std::size_t k = 0; k < 3; ++k) {
+    ids[k] = new_id;
+    if (part.corner[k] == FacePart::kNew) continue;
+    const auto v = geometry.face[cut.face.face][part.corner[k]];
+    ids[k] = geometry.vertex_id[v];
+    edit.use_vertex(ids[k], geometry.position[v]);
   }
-
- private:
-  int count_, given_ = 0;
-  float whole_, done_ = 0;
-};
+  return ids;
+}
 
 }  // namespace
 
-bool parts_are_sound(const FaceCorners& face, std::span<const FacePart> parts, const Eigen::Vector3f& place,
-                     float cosine_least, float area_least) {
-  const Eigen::Vector3f whole = twice_area(face);
-  for (const auto& part : parts) {
-    const Eigen::Vector3f area = twice_area(corners_of(face, part, place));
-    if (!(area.norm() >= area_least * whole.norm()) || !(area.dot(whole) >= cosine_least * area.norm() * whole.norm()))
-      return false;
+bool cuts_are_sound(const PpmMap& map, std::span<const FaceCut> cuts, const Eigen::Vector3f& place, float cosine_least,
+                    float area_least) {
+  for (const auto& cut : cuts) {
+    const FaceCorners face = face_corners(*map.table()[cut.face.chunk].geometry, cut.face.face);
+    const Eigen::Vector3f whole = twice_area(face);
+    for (const auto& part : cut.parts) {
+      const Eigen::Vector3f area = twice_area(part_corners(face, part, place));
+      if (!(area.norm() >= area_least * whole.norm()) ||
+          !(area.dot(whole) >= cosine_least * area.norm() * whole.norm()))
+        return false;
+    }
   }
   return true;
 }
 
-void replace_face(PpmEdit& edit, const FaceRef& face, std::span<const FacePart> parts, std::uint32_t new_id,
-                  const Eigen::Vector3f& place) {
-  const PpmChunk& chunk = edit.map().table()[face.chunk];
-  const Geometry& geometry = *chunk.geometry;
-  const FaceCorners old = face_corners(geometry, face.face);
-  const auto n = geometry.divisions[face.face];
-  const DescribedFace described(old, n, chunk.texels->view(geometry.first_texel[face.face], texel_count(n)));
-  const FaceEvidence& evidence = chunk.texels->evidence[face.face];
-  float whole = 0;
-  for (const auto& part : parts) whole += twice_area(corners_of(old, part, place)).norm();
-  Shares hits(evidence.hits, whole), through(evidence.through, whole);
-
-  for (const auto& part : parts) {
-    const FaceCorners corner = corners_of(old, part, place);
-    std::array<std::uint32_t, 3> ids;
-    for (std::size_t k = 0; k < 3; ++k) {
-      ids[k] = part.corner[k] == FacePart::kNew ? new_id
-                                                : geometry.vertex_id[geometry.face[face.face][part.corner[k]]];
-      if (part.corner[k] != FacePart::kNew) edit.use_vertex(ids[k], corner[k]);
-    }
-    const auto divisions = edit.map().divisions_for(corner[0], corner[1], corner[2]);
-    TexelArrays texels;
-    described.reexpress(corner, divisions, texels);
-    const float area = twice_area(corner).norm();
-    edit.add_face(ids, static_cast<std::uint8_t>(divisions), texels.view(0, texels.size()),
-                  {hits.next(area), through.next(area), evidence.excess});
+void cut_faces(PpmEdit& edit, std::span<const FaceCut> cuts, const Eigen::Vector3f& place) {
+  std::vector<TexturedFace> old_faces;
+  std::vector<FaceCorners> corners;
+  for (const auto& cut : cuts) {
+    old_faces.push_back(textured_face(edit.map().table()[cut.face.chunk], cut.face.face));
+    for (const auto& part : cut.parts) corners.push_back(part_corners(old_faces.back().corner, part, place));
   }
-  edit.remove_face(face.chunk, face.face);
+  const auto faces = resample_faces(old_faces, corners, edit.map().settings());
+  const auto new_id = edit.add_vertex(place);
+  auto face = faces.begin();
+  for (const auto& cut : cuts) {
+    for (const auto& part : cut.parts) {
+      edit.add_face(part_ids(edit, cut, part, new_id), face->divisions, face->view(), face->evidence);
+      ++face;
+    }
+    edit.remove_face(cut.face.chunk, cut.face.face);
+  }
 }
 
 }  // namespace ppm

@@ -8,20 +8,25 @@
 
 namespace ppm {
 
-/// A face that is to take over a part of another: its vertices, each a corner of the old face or the new vertex.
+/// What takes over a part of a face: its corners are corners of the face or the new vertex.
 struct FacePart {
   static constexpr std::uint32_t kNew = 3;
-  std::array<std::uint32_t, 3> corner;  ///< 0, 1, 2: of the old face; kNew
+  std::array<std::uint32_t, 3> corner;  ///< 0, 1, 2: of the face; kNew
 };
 
-/// True when no part, with the new vertex at a place, turns further (cosine) from the face than allowed or has less than
-/// this share of its area.
-bool parts_are_sound(const FaceCorners& face, std::span<const FacePart> parts, const Eigen::Vector3f& place,
-                     float cosine_least, float area_least);
+/// A face that is to be divided around a new vertex.
+struct FaceCut {
+  FaceRef face;
+  std::vector<FacePart> parts;
+};
 
-/// Replaces a face by parts around a new vertex of the session: their texels describe the surface that the face
-/// described, they share its hits by area, and keep its excess.
-void replace_face(PpmEdit& edit, const FaceRef& face, std::span<const FacePart> parts, std::uint32_t new_id,
-                  const Eigen::Vector3f& place);
+/// True when no part, with the new vertex at a place, turns further from its face than allowed (cosine) or has less
+/// than this share of its area.
+bool cuts_are_sound(const PpmMap& map, std::span<const FaceCut> cuts, const Eigen::Vector3f& place, float cosine_least,
+                    float area_least);
+
+/// Replaces faces by their parts around one new vertex: texels that describe the surface that the faces described,
+/// evidence by area (see TexelResampler).
+void cut_faces(PpmEdit& edit, std::span<const FaceCut> cuts, const Eigen::Vector3f& place);
 
 }  // namespace ppm

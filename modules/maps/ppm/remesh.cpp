@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "modules/maps/ppm/face_neighbours.hpp"
 #include "modules/maps/ppm/face_split.hpp"
@@ -51,17 +52,12 @@ class Divider {
   RemeshCounts counts;
 
  private:
-  /// One of the one or two faces that share the edge to be divided.
-  struct Half {
-    FaceSide side;
-    FaceCorners corner;
-    std::array<FacePart, 2> parts;
-  };
-  Half half(const FaceSide& side) const;
+  bool cut(std::span<const FaceCut> cuts, const Eigen::Vector3f& place, float area_least);
   FaceSide longest_side(const FaceRef& face) const;
   FaceSide terminal_side(FaceRef face);
-  Eigen::Vector3f edge_offset(const std::vector<Half>& halves) const;
+  Eigen::Vector3f edge_offset(std::span<const FaceSide> sides) const;
   const Geometry& geometry(const FaceRef& face) const { return *edit_.map().table()[face.chunk].geometry; }
+  FaceCorners corners(const FaceRef& face) const { return face_corners(geometry(face), face.face); }
 
   PpmEdit& edit_;
   float cosine_least_;
@@ -69,57 +65,49 @@ class Divider {
   std::set<FaceRef> divided_;
 };
 
+bool Divider::cut(std::span<const FaceCut> cuts, const Eigen::Vector3f& place, float area_least) {
+  if (!cuts_are_sound(edit_.map(), cuts, place, cosine_least_, area_least)) return false;
+  cut_faces(edit_, cuts, place);
+  ++counts.inserted;
+  for (const auto& c : cuts) {
+    divided_.insert(c.face);
+    counts.new_faces += c.parts.size();
+  }
+  return true;
+}
+
 void Divider::insert(const Candidate& candidate) {
   constexpr float kAreaLeast = 0.005f;  // slivers arise here; not degenerate faces
-  static constexpr std::array<FacePart, 3> kParts{
-      {{{0, 1, FacePart::kNew}}, {{1, 2, FacePart::kNew}}, {{2, 0, FacePart::kNew}}}};
-  const auto& g = geometry(candidate.face);
-  const FaceCorners corner = face_corners(g, candidate.face.face);
-  const Eigen::Vector3f place =
-      texel_place(corner, g.divisions[candidate.face.face], candidate.bend.i, candidate.bend.j) +
-      candidate.bend.error * triangle_normal(corner);
-  if (!parts_are_sound(corner, kParts, place, cosine_least_, kAreaLeast)) return;
-  replace_face(edit_, candidate.face, kParts, edit_.add_vertex(place), place);
-  ++counts.inserted;
-  counts.new_faces += kParts.size();
+  constexpr auto kNew = FacePart::kNew;
+  const FaceCut parts{candidate.face, {{{0, 1, kNew}}, {{1, 2, kNew}}, {{2, 0, kNew}}}};
+  const FaceCorners corner = corners(candidate.face);
+  const auto n = geometry(candidate.face).divisions[candidate.face.face];
+  cut({&parts, 1},
+      texel_place(corner, n, candidate.bend.i, candidate.bend.j) + candidate.bend.offset * triangle_normal(corner),
+      kAreaLeast);
 }
 
 /// Divides the edge where the path of ever longer edges from the face ends.
 void Divider::bisect(const Candidate& candidate) {
   constexpr float kAreaLeast = 0.25f;  // of half each
-  const FaceSide side = terminal_side(candidate.face);
-  std::vector<Half> halves{half(side)};
-  if (const auto beyond = neighbours_.across(side)) halves.push_back(half(*beyond));
-  for (const auto& h : halves)
-    if (divided_.contains(h.side.face)) return;
-  const auto& [corner, k] = std::pair(halves[0].corner, side.k);
-  const Eigen::Vector3f middle = 0.5f * (corner[k] + corner[(k + 1) % 3]), offset = edge_offset(halves);
-  for (const float share : {1.0f, 0.5f, 0.25f, 0.0f}) {
-    const Eigen::Vector3f place = middle + share * offset;
-    if (!std::all_of(halves.begin(), halves.end(),
-                     [&](const Half& h) { return parts_are_sound(h.corner, h.parts, place, cosine_least_, kAreaLeast); }))
-      continue;
-    const auto id = edit_.add_vertex(place);
-    for (const auto& h : halves) {
-      replace_face(edit_, h.side.face, h.parts, id, place);
-      divided_.insert(h.side.face);
-      counts.new_faces += h.parts.size();
-    }
-    ++counts.inserted;
-    return;
+  std::vector<FaceSide> sides{terminal_side(candidate.face)};
+  if (const auto beyond = neighbours_.across(sides[0])) sides.push_back(*beyond);
+  std::vector<FaceCut> cuts;
+  for (const auto& [face, k] : sides) {
+    if (divided_.contains(face)) return;
+    const auto next = (k + 1) % 3, last = (k + 2) % 3;
+    cuts.push_back({face, {{{k, FacePart::kNew, last}}, {{FacePart::kNew, next, last}}}});
   }
-}
-
-Divider::Half Divider::half(const FaceSide& side) const {
-  const auto a = side.k, b = (side.k + 1) % 3, c = (side.k + 2) % 3;
-  return {side,
-          face_corners(geometry(side.face), side.face.face),
-          {{{{a, FacePart::kNew, c}}, {{FacePart::kNew, b, c}}}}};
+  const FaceCorners corner = corners(sides[0].face);
+  const Eigen::Vector3f middle = 0.5f * (corner[sides[0].k] + corner[(sides[0].k + 1) % 3]),
+                        offset = edge_offset(sides);
+  for (const float share : {1.0f, 0.5f, 0.25f, 0.0f})
+    if (cut(cuts, middle + share * offset, kAreaLeast)) return;
 }
 
 /// Edges of one length are told apart by their vertices, so that both faces of an edge choose alike.
 FaceSide Divider::longest_side(const FaceRef& face) const {
-  const FaceCorners corner = face_corners(geometry(face), face.face);
+  const FaceCorners corner = corners(face);
   FaceSide longest{face, 0};
   std::pair<float, Edge> most{-1.0f, {}};
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -145,17 +133,16 @@ FaceSide Divider::terminal_side(FaceRef face) {
 
 /// From the middle of the edge to the described surface, along the mean of the faces' normals; zero where they fold
 /// back on each other.
-Eigen::Vector3f Divider::edge_offset(const std::vector<Half>& halves) const {
+Eigen::Vector3f Divider::edge_offset(std::span<const FaceSide> sides) const {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  for (const auto& h : halves) normal += triangle_normal(h.corner);
+  for (const auto& side : sides) normal += triangle_normal(corners(side.face));
   if (normal.norm() < 0.1f) return Eigen::Vector3f::Zero();
   normal.normalize();
   OffsetFusion fusion;
-  for (const auto& [side, corner, parts] : halves) {
+  for (const auto& [face, k] : sides) {
     constexpr float kU[3] = {0.5f, 0.5f, 0.0f}, kV[3] = {0.0f, 0.5f, 0.5f};
-    const auto texel = linear_sample(geometry(side.face), *edit_.map().table()[side.face.chunk].texels, side.face.face,
-                                     kU[side.k], kV[side.k]);
-    fusion.add(texel.mean, texel.variance, triangle_normal(corner).dot(normal));
+    const auto texel = linear_sample(geometry(face), *edit_.map().table()[face.chunk].texels, face.face, kU[k], kV[k]);
+    fusion.add(texel.mean, texel.variance, triangle_normal(corners(face)).dot(normal));
   }
   return fusion.offset() * normal;
 }

@@ -16,8 +16,8 @@ enum class SplitForm {
 struct RemeshSettings {
   SplitForm form = SplitForm::bisect;
   BendSettings bend;
-  float edge_least = 0.06f;  ///< m; faces whose longest edge is shorter are left to their texels
-  float turn_most = 0.8f;    ///< rad; a new face turns no further from the one it replaces
+  float edge_least = 0.1f;  ///< m; faces whose longest edge is shorter are left to their texels
+  float turn_most = 0.8f;   ///< rad; a new face turns no further from the one it replaces
 };
 
 struct RemeshCounts {
@@ -28,9 +28,9 @@ struct RemeshCounts {
 
 /// Inserts vertices, on the described surface, where the texels of a face say with certainty that it should bend, the
 /// worst first; each face is divided at most once, so that a deep bend takes several calls. New faces take over the
-/// described surface; their evidence is that of the old ones by area. A pure function of its arguments. Where nothing is
-/// divided the map is returned as it came. Source: paper, section 4.3; bisection: Rivara, "New longest-edge algorithms
-/// for the refinement and/or improvement of unstructured triangulations", Int. J. Numer. Meth. Engng. 1997.
+/// described surface; their evidence is that of the old ones by area. A pure function of its arguments. Where nothing
+/// is divided the map is returned as it came. Source: paper, section 4.3; bisection: Rivara, "New longest-edge
+/// algorithms for the refinement and/or improvement of unstructured triangulations", Int. J. Numer. Meth. Engng. 1997.
 std::shared_ptr<const PpmMap> remesh(std::shared_ptr<const PpmMap> map, const RemeshSettings& settings,
                                      RemeshCounts* counts = nullptr);
 

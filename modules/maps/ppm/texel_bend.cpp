@@ -11,11 +11,15 @@ namespace {
 class Bends {
  public:
   Bends(std::uint32_t n, const TexelView& texels)
-      : n_(n), texels_(texels), at_(texels.mean[0]), along_i_((texels.mean[texel_index(n, n, 0)] - at_) / static_cast<float>(n)),
+      : n_(n),
+        texels_(texels),
+        at_(texels.mean[0]),
+        along_i_((texels.mean[texel_index(n, n, 0)] - at_) / static_cast<float>(n)),
         along_j_((texels.mean[n] - at_) / static_cast<float>(n)) {}
 
   float raw(std::uint32_t i, std::uint32_t j) const {
-    return texels_.mean[texel_index(n_, i, j)] - at_ - along_i_ * static_cast<float>(i) - along_j_ * static_cast<float>(j);
+    return texels_.mean[texel_index(n_, i, j)] - at_ - along_i_ * static_cast<float>(i) -
+           along_j_ * static_cast<float>(j);
   }
 
   /// Averaged over the texel and those around it, by information, without the corners: their error is 0 by definition.
@@ -58,7 +62,7 @@ std::optional<TexelBend> largest_bend(std::uint32_t n, const TexelView& texels, 
       if (sigma > settings.sigma_most) continue;
       const float error = settings.bend ? bends.smooth(i, j) : mean;
       if (std::abs(error) <= std::max(settings.least, settings.sigmas * sigma)) continue;
-      if (!largest || std::abs(error) > std::abs(largest->error)) largest = TexelBend{i, j, error};
+      if (!largest || std::abs(error) > std::abs(largest->error)) largest = TexelBend{i, j, error, mean};
     }
   return largest;
 }

@@ -8,8 +8,8 @@ namespace ppm {
 
 /// When the texels of a face say that the face itself should bend.
 struct BendSettings {
-  /// What a texel's mean is compared with: the plane through the face's corners, each at its own offset, after averaging
-  /// over the neighbours (true); the face itself, texel by texel (false: the paper's form).
+  /// What a texel's mean is compared with: the plane through the face's corners, each at its own offset, after
+  /// averaging over the neighbours (true); the face itself, texel by texel (false: the paper's form).
   bool bend = true;
   float sigmas = 3;          ///< the error must be more than so many of the texel's standard deviations ...
   float least = 0.02f;       ///< ... and more than this, m
@@ -19,7 +19,8 @@ struct BendSettings {
 /// The texel that errs most.
 struct TexelBend {
   std::uint32_t i = 0, j = 0;
-  float error = 0;  ///< m, signed, along the face's normal
+  float error = 0;   ///< m, signed, along the face's normal
+  float offset = 0;  ///< m, the texel's mean
 };
 
 /// The texel inside the face, or on its sides where settings.bend is set, with the largest error that passes the

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "modules/maps/ppm/boundary.hpp"
+#include "modules/maps/ppm/chunk_edit.hpp"
 #include "modules/maps/ppm/described_face.hpp"
 #include "modules/maps/ppm/offset_fusion.hpp"
-#include "modules/maps/ppm/chunk_edit.hpp"
 #include "modules/maps/ppm/ppm_edit.hpp"
 #include "modules/maps/ppm/vertex_finder.hpp"
 
@@ -31,9 +31,7 @@ void for_texels_around(std::uint32_t n, std::uint32_t k, std::uint32_t rings, F 
   const std::uint32_t r = std::min(rings, n);
   for (std::uint32_t away = 0; away <= r; ++away)
     for (std::uint32_t s = 0; s <= away; ++s)
-      f(k == 0   ? texel_index(n, away - s, s)
-        : k == 1 ? texel_index(n, n - away, s)
-                 : texel_index(n, s, n - away));
+      f(k == 0 ? texel_index(n, away - s, s) : k == 1 ? texel_index(n, n - away, s) : texel_index(n, s, n - away));
 }
 
 class Adjustment {
@@ -52,8 +50,7 @@ class Adjustment {
     if (!any) return false;
     if (!settings_.boundary) hold_boundary();
     find_faces();
-    while (hold_bad_faces()) {
-    }
+    while (hold_bad_faces()) {}
     return std::any_of(step_.begin(), step_.end(), [](float s) { return s != 0; });
   }
 
@@ -178,8 +175,8 @@ class Adjustment {
     Texels& texels = edit.texels(ref.chunk);
     const auto first = geometry.first_texel[ref.face], count = texel_count(geometry.divisions[ref.face]);
     before_.assign(texels.mean.begin() + first, texels.mean.begin() + first + count);
-    const DescribedFace face(face_corners(geometry, ref.face), geometry.divisions[ref.face], {before_, {}});
-    face.reexpress_means(moved_corners(geometry, ref.face), {&texels.mean[first], count});
+    const DescribedFace face(face_corners(geometry, ref.face), geometry.divisions[ref.face], before_);
+    face.reexpress(moved_corners(geometry, ref.face), {&texels.mean[first], count});
   }
 
   const PpmMap* map_;
