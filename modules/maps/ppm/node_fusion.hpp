@@ -10,10 +10,10 @@ class OffsetFusion {
  public:
   /// mean, variance: of the surface at a texel, along its face's normal; cosine: between that and the common normal.
   void add(double mean, double variance, double cosine) {
-    const double c = std::max(cosine, kCosineLeast);
-    information_ += 1 / variance;
-    moved_ += c * mean / variance;
-    reach_ += c * c / variance;
+    const double c = std::max(cosine, kCosineLeast), information = 1 / variance;
+    information_ += information;
+    moved_ += c * mean * information;
+    reach_ += c * c * information;
     ++count_;
   }
   /// m along the common normal: nearest, weighted by information, to the planes that the texels describe. Where the

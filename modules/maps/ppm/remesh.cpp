@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <span>
 
 #include "modules/maps/ppm/face_neighbours.hpp"
 #include "modules/maps/ppm/face_split.hpp"
-#include "modules/maps/ppm/offset_fusion.hpp"
 #include "modules/maps/ppm/texel_sample.hpp"
 
 namespace ppm {
@@ -131,20 +131,25 @@ FaceSide Divider::terminal_side(FaceRef face) {
   }
 }
 
-/// From the middle of the edge to the described surface, along the mean of the faces' normals; zero where they fold
-/// back on each other.
+/// From the middle of the edge towards the described surface, along the mean of the faces' normals, as far as both
+/// faces say: zero where they disagree on the side, as at a step in the surface, and where they fold back on each
+/// other.
 Eigen::Vector3f Divider::edge_offset(std::span<const FaceSide> sides) const {
+  constexpr float kCosineLeast = 0.5f;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   for (const auto& side : sides) normal += triangle_normal(corners(side.face));
   if (normal.norm() < 0.1f) return Eigen::Vector3f::Zero();
   normal.normalize();
-  OffsetFusion fusion;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const auto& [face, k] : sides) {
     constexpr float kU[3] = {0.5f, 0.5f, 0.0f}, kV[3] = {0.0f, 0.5f, 0.5f};
-    const auto texel = linear_sample(geometry(face), *edit_.map().table()[face.chunk].texels, face.face, kU[k], kV[k]);
-    fusion.add(texel.mean, texel.variance, triangle_normal(corners(face)).dot(normal));
+    const auto& texels = *edit_.map().table()[face.chunk].texels;
+    const float mean = linear_sample(geometry(face), texels, face.face, kU[k], kV[k]).mean;
+    const float offset = mean / std::max(triangle_normal(corners(face)).dot(normal), kCosineLeast);
+    low = std::min(low, offset);
+    high = std::max(high, offset);
   }
-  return fusion.offset() * normal;
+  return (low > 0 ? low : high < 0 ? high : 0.0f) * normal;
 }
 
 }  // namespace

@@ -16,13 +16,10 @@ namespace {
 /// What the texels around one vertex say, and the first of its copies.
 struct AroundVertex {
   static constexpr std::uint32_t kUnused = 0xffffffffu;
-  OffsetFusion offset;
-  double information = 0;  // 1/m^2
+  OffsetFusion weighted;
+  double sum = 0;  // m, of the means
   std::uint32_t texels = 0;
   VertexCopy copy{kUnused, 0};
-
-  /// m^2, harmonic mean: the texels are one place measured once.
-  double variance() const { return texels / information; }
 };
 
 /// Calls f(position within the face's texels) for those up to `rings` steps from corner k.
@@ -94,11 +91,11 @@ class Adjustment {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto v = geometry.face[f][k];
       AroundVertex& around = around_[geometry.vertex_id[v]];
-      const float cosine = settings_.weighted ? normal.dot(geometry.normal[v]) : 1.0f;
+      const float cosine = normal.dot(geometry.normal[v]);
       for_texels_around(geometry.divisions[f], k, rings, [&](std::uint32_t texel) {
         const auto t = geometry.first_texel[f] + texel;
-        around.offset.add(texels.mean[t], settings_.weighted ? texels.variance[t] : 1.0f, cosine);
-        around.information += 1.0 / texels.variance[t];
+        around.weighted.add(texels.mean[t], texels.variance[t], cosine);
+        around.sum += texels.mean[t];
         ++around.texels;
       });
     }
@@ -107,8 +104,8 @@ class Adjustment {
   /// m along the vertex's normal; 0 where it stays.
   float wanted_step(const AroundVertex& around) const {
     if (around.texels == 0) return 0;  // a vertex that has gone
-    const float offset = around.offset.offset();
-    const auto sigma = static_cast<float>(std::sqrt(around.variance()));
+    const float offset = settings_.weighted ? around.weighted.offset() : static_cast<float>(around.sum / around.texels);
+    const float sigma = std::sqrt(around.weighted.variance());
     if (std::abs(offset) <= std::max(settings_.least, settings_.sigmas * sigma)) return 0;
     return std::clamp(offset, -settings_.most, settings_.most);
   }
@@ -119,9 +116,10 @@ class Adjustment {
   }
 
   void hold_boundary() {
-    std::vector<Edge> open;
+    std::vector<Edge> open;  // of vertices that are to move
     for (const auto& chunk : map_->table().chunks())
-      open.insert(open.end(), chunk.geometry->open_edge.begin(), chunk.geometry->open_edge.end());
+      for (const auto& e : chunk.geometry->open_edge)
+        if (step_[e[0]] != 0 || step_[e[1]] != 0) open.push_back(e);
     std::sort(open.begin(), open.end());
     for (const auto& [a, b] : open)
       if (!std::binary_search(open.begin(), open.end(), Edge{b, a})) {
