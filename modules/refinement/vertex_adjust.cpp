@@ -62,9 +62,8 @@ class VertexAdjust final : public MapEditor {
         .doc("Whether vertices on the boundary of the mesh stay: texels on silhouettes are the least certain.");
     params_.add_choice("texels", texels_, {{"reexpress", Texels::reexpress}, {"keep", Texels::keep}})
         .doc(
-            "reexpress measures the texels' means from the faces as they are then, so that the described surface "
-            "stays; "
-            "keep leaves the means as they are: the surface moves with the vertices.");
+            "What becomes of the texels' means: reexpress measures them from the faces as they are then, so that the "
+            "described surface stays; keep leaves them as they are, and the surface moves with the vertices.");
   }
   static void report(Context& context, const AdjustCounts& counts) {
     context.metric("moved", static_cast<double>(counts.moved));
