@@ -38,8 +38,10 @@ std::string refuse_module_name(const std::string& name) {
 
 std::string module_skeleton(const std::string& name) {
   static const std::map<std::string, const char*> by_category{
-      {"source", kSourceTemplate},       {"motion", kMotionTemplate},        {"prediction", kPredictionTemplate},
-      {"weighting", kWeightingTemplate}, {"map_update", kMapUpdateTemplate}, {"sink", kSinkTemplate}};
+      {"source", kSourceTemplate},         {"sensor", kSensorTemplate},
+      {"preprocess", kPreprocessTemplate}, {"motion", kMotionTemplate},
+      {"prediction", kPredictionTemplate}, {"weighting", kWeightingTemplate},
+      {"map_update", kMapUpdateTemplate},  {"sink", kSinkTemplate}};
   const auto dot = name.find('.');
   const auto found = by_category.find(name.substr(0, dot));
   const std::string text = found == by_category.end() ? kBeliefTemplate : found->second;

@@ -41,14 +41,20 @@ class Bilateral final : public Preprocessing {
       inverse[p] = image.depth[p] == image.depth[p] ? 1.0f / image.depth[p] : kFar;
     const int cols = image.camera.cols, rows = image.camera.rows;
     for_row_bands(workers, rows, cols, [&](int first, int last) {
-      std::vector<float> sum(static_cast<std::size_t>(cols)), total(sum.size());
-      for (int y = first; y < last; ++y) smooth_row(inverse, weights, y, rows, sum, total, image);
+      Row row(static_cast<std::size_t>(cols));
+      for (int y = first; y < last; ++y) smooth_row(inverse, weights, y, row, image);
     });
   }
 
  private:
-  static constexpr float kFar =
-      1e9f;  // inverse depth of a pixel without return: unlike any other, so that it never counts
+  /// Inverse depth of a pixel without return: unlike any other, so that it never counts.
+  static constexpr float kFar = 1e9f;
+
+  /// Scratch for a row of pixels.
+  struct Row {
+    explicit Row(std::size_t cols) : sum(cols), total(cols), scale(cols) {}
+    std::vector<float> sum, total, scale;
+  };
 
   std::vector<float> image_weights() const {
     std::vector<float> weights;
@@ -58,31 +64,33 @@ class Bilateral final : public Preprocessing {
     return weights;
   }
 
-  /// sum, total: [cols] scratch. Neighbour by neighbour, so that the loop over the row has no branch.
-  void smooth_row(const std::vector<float>& inverse, const std::vector<float>& weights, int y, int rows,
-                  std::vector<float>& sum, std::vector<float>& total, Frame& image) const {
-    const int cols = image.camera.cols;
-    const float* own = &inverse[static_cast<std::size_t>(y * cols)];
-    float* depth = &image.depth[static_cast<std::size_t>(y * cols)];
-    const float* sigma = &image.sigma[static_cast<std::size_t>(y * cols)];
-    std::fill(sum.begin(), sum.end(), 0.0f);
-    std::fill(total.begin(), total.end(), 0.0f);
+  /// Neighbour by neighbour, so that the loop over the row has no branch.
+  void smooth_row(const std::vector<float>& inverse, const std::vector<float>& weights, int y, Row& row,
+                  Frame& image) const {
+    const int cols = image.camera.cols, rows = image.camera.rows;
+    const auto start = static_cast<std::size_t>(y * cols);
+    const float* own = &inverse[start];
+    float *sum = row.sum.data(), *total = row.total.data(), *scale = row.scale.data(), *depth = &image.depth[start];
     const auto reach = static_cast<float>(sigma_depth_);
+    for (int x = 0; x < cols; ++x) {
+      sum[x] = total[x] = 0;
+      scale[x] = 1.0f / (reach * image.sigma[start + static_cast<std::size_t>(x)] * own[x] * own[x]);
+    }
     std::size_t k = 0;
     for (int dy = -radius_; dy <= radius_; ++dy)
       for (int dx = -radius_; dx <= radius_; ++dx, ++k) {
         if (y + dy < 0 || y + dy >= rows) continue;
         const float* other = own + dy * cols + dx;
+        const float weight = weights[k];
         const int end = std::min(cols, cols - dx);
         for (int x = std::max(0, -dx); x < end; ++x) {
-          const float off = (other[x] - own[x]) / (reach * sigma[x] * own[x] * own[x]);
-          const float inside = std::max(0.0f, 1 - off * off), w = weights[k] * inside * inside;
-          sum[static_cast<std::size_t>(x)] += w * other[x];
-          total[static_cast<std::size_t>(x)] += w;
+          const float off = (other[x] - own[x]) * scale[x];
+          const float inside = std::max(0.0f, 1 - off * off), w = weight * inside * inside;
+          sum[x] += w * other[x];
+          total[x] += w;
         }
       }
-    for (int x = 0; x < cols; ++x)
-      if (depth[x] == depth[x]) depth[x] = total[static_cast<std::size_t>(x)] / sum[static_cast<std::size_t>(x)];
+    for (int x = 0; x < cols; ++x) depth[x] = depth[x] == depth[x] ? total[x] / sum[x] : depth[x];
   }
 
   int radius_ = 2;

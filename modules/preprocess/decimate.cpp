@@ -1,6 +1,7 @@
+#include "framework/slam/decimate.hpp"
+
 #include "framework/graph/registry.hpp"
 #include "framework/roles/frame_filter.hpp"
-#include "framework/slam/decimate.hpp"
 
 namespace {
 

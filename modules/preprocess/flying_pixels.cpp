@@ -48,8 +48,9 @@ class FlyingPixels final : public Preprocessing {
       for (int y = first; y < last; ++y)
         for (int x = 0; x < cols; ++x) {
           const auto p = static_cast<std::size_t>(y * cols + x);
-          if (image.depth[p] == image.depth[p] && drops(around(jumps, cols, x, y)))
-            image.depth[p] = image.sigma[p] = nan;
+          const Around steps = around(jumps, cols, x, y);
+          if (one_surface(steps) || !(image.depth[p] == image.depth[p])) continue;
+          if (drops(steps)) image.depth[p] = image.sigma[p] = nan;
         }
     });
   }
@@ -63,6 +64,10 @@ class FlyingPixels final : public Preprocessing {
     const auto p = static_cast<std::size_t>(y * cols + x);
     return {x > 0 ? reversed(jumps.right[p - 1]) : Step::unknown, jumps.right[p],
             y > 0 ? reversed(jumps.down[p - static_cast<std::size_t>(cols)]) : Step::unknown, jumps.down[p]};
+  }
+  /// Whether nothing is to be decided: so it is nearly everywhere.
+  static bool one_surface(const Around& steps) {
+    return steps == Around{Step::none, Step::none, Step::none, Step::none};
   }
   static bool is_jump(Step s) { return s == Step::closer || s == Step::farther; }
 

@@ -7,10 +7,26 @@
 namespace ppm {
 namespace {
 
+/// Inverse depth of an image with a margin of NaN on all sides, so that neighbours need no test.
+struct InverseDepth {
+  int margin, stride;
+  std::vector<float> values;
+
+  InverseDepth(const Frame& frame, int margin_) : margin(margin_), stride(frame.camera.cols + 2 * margin_) {
+    const Camera& camera = frame.camera;
+    values.assign(static_cast<std::size_t>(stride * (camera.rows + 2 * margin)),
+                  std::numeric_limits<float>::quiet_NaN());
+    for (int y = 0; y < camera.rows; ++y) {
+      const float* depth = &frame.depth[static_cast<std::size_t>(y * camera.cols)];
+      std::transform(depth, depth + camera.cols, &values[offset(y)], [](float z) { return 1.0f / z; });
+    }
+  }
+  std::size_t offset(int y) const { return static_cast<std::size_t>(stride * (y + margin) + margin); }
+};
+
 /// The smaller of two slopes, or the one that is a number.
 float milder(float before, float after) {
-  if (std::isnan(before)) return after;
-  return std::abs(before) < std::abs(after) ? before : std::isnan(after) ? before : after;
+  return (std::abs(before) < std::abs(after)) | (after != after) ? before : after;
 }
 
 }  // namespace
@@ -18,27 +34,22 @@ float milder(float before, float after) {
 std::vector<float> incidence_cosine(const Frame& frame, double baseline) {
   const Camera& camera = frame.camera;
   const int step = std::max(1, static_cast<int>(std::lround(baseline * std::abs(camera.fx))));
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  std::vector<float> inverse(frame.depth.size()), cosine(frame.depth.size());
-  for (std::size_t p = 0; p < inverse.size(); ++p) inverse[p] = 1.0f / frame.depth[p];
-  const auto at = [&](int x, int y) {
-    return x < 0 || y < 0 || x >= camera.cols || y >= camera.rows
-               ? nan
-               : inverse[static_cast<std::size_t>(y * camera.cols + x)];
-  };
-  const auto fx = static_cast<float>(camera.fx) / static_cast<float>(step);
-  const auto fy = static_cast<float>(camera.fy) / static_cast<float>(step);
+  const InverseDepth inverse(frame, step);
+  const int below = step * inverse.stride;
+  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy), cx = static_cast<float>(camera.cx);
+  const float slope_x = fx / static_cast<float>(step), slope_y = fy / static_cast<float>(step);
+  std::vector<float> cosine(frame.depth.size());
   for (int y = 0; y < camera.rows; ++y) {
     const float v = static_cast<float>((y - camera.cy) / camera.fy);
+    const float* row = &inverse.values[inverse.offset(y)];
+    float* out = &cosine[static_cast<std::size_t>(y * camera.cols)];
     for (int x = 0; x < camera.cols; ++x) {
       // With ray (u, v, 1), the plane n . point = 1 has inverse depth n . ray: a, b and c are its normal.
-      const float u = static_cast<float>((x - camera.cx) / camera.fx);
-      const float d = at(x, y);
-      const float a = milder(d - at(x - step, y), at(x + step, y) - d) * fx;
-      const float b = milder(d - at(x, y - step), at(x, y + step) - d) * fy;
+      const float u = (static_cast<float>(x) - cx) / fx, d = row[x];
+      const float a = milder(d - row[x - step], row[x + step] - d) * slope_x;
+      const float b = milder(d - row[x - below], row[x + below] - d) * slope_y;
       const float c = d - a * u - b * v;
-      cosine[static_cast<std::size_t>(y * camera.cols + x)] =
-          d / std::sqrt((a * a + b * b + c * c) * (u * u + v * v + 1));
+      out[x] = d / std::sqrt((a * a + b * b + c * c) * (u * u + v * v + 1));
     }
   }
   return cosine;

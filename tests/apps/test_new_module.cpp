@@ -57,16 +57,19 @@ TEST_CASE("skeletons of all categories compile as they are, load as plug-ins and
   write_text(graph, R"(name: skeletons
 nodes:
   - {name: camera, module: source.skeleton_source, params: {frames: 4}}
-  - {name: init, module: map.ppm_empty, in: {frame: camera.frame}, when: {until_frame: 0}, params: {particles: 3}}
+  - {name: noise, module: sensor.skeleton_sensor, in: {frame: camera.frame}}
+  - {name: clean, module: preprocess.skeleton_preprocess, in: {frame: noise.frame}}
+  - {name: init, module: map.ppm_empty, in: {frame: clean.frame}, when: {until_frame: 0}, params: {particles: 3}}
   - {name: motion, module: motion.skeleton_motion, in: {frame: camera.frame}, when: {from_frame: 1}}
   - {name: look, module: prediction.skeleton_prediction, in: {frame: camera.frame}}
   - {name: weigh, module: weighting.skeleton_weighting, in: {frame: camera.frame}, when: {from_frame: 1}}
-  - {name: update, module: map_update.skeleton_map_update, in: {frame: camera.frame}}
+  - {name: update, module: map_update.skeleton_map_update, in: {frame: clean.frame}}
   - {name: adjust, module: refinement.skeleton_refinement}
   - {name: table, module: sink.skeleton_sink}
 )");
   std::vector<std::string> arguments{"run", graph, "--out", (folder / "run").string()};
-  for (const char* category : {"source", "motion", "prediction", "weighting", "map_update", "refinement", "sink"}) {
+  for (const char* category :
+       {"source", "sensor", "preprocess", "motion", "prediction", "weighting", "map_update", "refinement", "sink"}) {
     arguments.emplace_back("--plugin");
     arguments.push_back(skeleton(category));
   }

@@ -51,6 +51,19 @@ TEST_CASE("the kitchen's graphs run a few frames") {
   runs_as_it_did({"kitchen_slam_paper.yaml", {"--set", path, "--set", "init.particles=20"}, 0.1, 0.7, 100});
 }
 
+TEST_CASE("sr4000_still.yaml maps a place from four images") {
+  const auto data = data_path("sr4000");
+  if (!data) return;
+  TempFolder folder;
+  const auto run = ppm_command({"run", std::string(PPM_SOURCE_DIR) + "/configs/sr4000_still.yaml", "--out",
+                                (folder / "run").string(), "--set", "camera.path=" + data->string()});
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  const auto json = read_json(folder / "run/run.json");
+  CHECK(json["frames"] == 4);
+  CHECK(json["map"]["faces"].get<int>() > 300);
+}
+
 TEST_CASE("icl_slam.yaml runs a few frames") {
   const auto data = data_path("icl_kt3");
   if (!data) return;
