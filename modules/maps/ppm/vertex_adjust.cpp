@@ -6,7 +6,7 @@
 #include "modules/maps/ppm/boundary.hpp"
 #include "modules/maps/ppm/chunk_edit.hpp"
 #include "modules/maps/ppm/described_face.hpp"
-#include "modules/maps/ppm/offset_fusion.hpp"
+#include "modules/maps/ppm/node_fusion.hpp"
 #include "modules/maps/ppm/ppm_edit.hpp"
 #include "modules/maps/ppm/vertex_finder.hpp"
 
