@@ -86,6 +86,7 @@ pictures() {  # one pass of each at the end of icl_kt3
     echo "![The mesh before and after one pass of each](../images/refinement.png)"
     echo
     echo "A wall, before, after one pass that moves vertices, and after one that inserts them. Colour: offset of the described surface from the face."
+    echo "Inserting alone, with nothing moved before, leaves the offsets at the old corners: the row of faces at the step above is finer, not nearer."
   fi
   if [ -d "$data/kitchen" ]; then
     echo
