@@ -47,6 +47,9 @@ std::string accuracy_table(const Accuracy& accuracy) {
         "  held out    coverage {:.4f}   median {:.2f} mm   within 1/2/5 cm {:.3f} {:.3f} {:.3f}   ({} frames, poses: "
         "{})\n",
         s.coverage, s.median_mm, s.within_1cm, s.within_2cm, s.within_5cm, h->frames, h->poses);
+    if (const auto& c = h->color)
+      text += fmt::format("               colour: median {:.3f}   RMS {:.3f} ({:.3f} with changes of exposure)\n", c->median,
+                          c->rms, c->rms_as_is);
   }
   return text;
 }

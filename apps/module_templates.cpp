@@ -141,7 +141,8 @@ class NewModule final : public Weighting {
   }
 
  protected:
-  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals) const override {
+  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
+                  const Prediction&) const override {
     ViewScore s;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       const double off = residuals.residual[i];

@@ -66,11 +66,23 @@ Json trajectory_json(const TrajectoryError& t) {
           {"rpe_rot_rmse_deg", t.rpe_rot_rmse_deg}};
 }
 
+Json color_json(const ColorScore& s) {
+  return {{"channels", s.channels},
+          {"pixels", s.pixels},
+          {"rms_as_is", s.rms_as_is},
+          {"rms", s.rms},
+          {"median", s.median},
+          {"log_density", s.log_density},
+          {"outliers", s.outliers},
+          {"within_1_sigma", s.within_1_sigma},
+          {"within_2_sigma", s.within_2_sigma}};
+}
+
 Json holdout_json(const Holdout& h) {
   const auto& s = h.score;
   // An infinite median (most pixels missed) has no number in JSON: null.
   const Json median = std::isfinite(s.median_mm) ? Json(s.median_mm) : Json(nullptr);
-  return {{"poses", h.poses},
+  Json json = {{"poses", h.poses},
           {"frames", h.frames},
           {"pixels", s.pixels},
           {"coverage", s.coverage},
@@ -83,6 +95,8 @@ Json holdout_json(const Holdout& h) {
           {"outliers", s.outliers},
           {"within_1_sigma", s.within_1_sigma},
           {"within_2_sigma", s.within_2_sigma}};
+  if (h.color) json["color"] = color_json(*h.color);
+  return json;
 }
 
 void add_accuracy(Json& json, const Accuracy& accuracy) {

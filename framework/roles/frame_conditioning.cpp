@@ -18,6 +18,7 @@ Frame FrameConditioning::apply(const Frame& image, int stride) const {
   PPM_CHECK(image.depth.size() == pixels, "frame {}: {} pixels, {} depths", image.index, pixels, image.depth.size());
   Frame out = decimated(image, stride);
   out.lateral_px = static_cast<float>(sigma_lateral / stride);
+  out.color_sigma = static_cast<float>(sigma_color);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   const bool has_sigma = !image.sigma.empty();
   out.sigma.resize(out.depth.size());

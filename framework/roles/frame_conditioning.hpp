@@ -11,6 +11,7 @@ struct FrameConditioning {
   double sigma_quadratic = 0.0019;               ///< 1/m
   double sigma_near = 0.4;                       ///< m
   double sigma_lateral = 0.5;                    ///< px of the image as read
+  double sigma_color = 0.03;                     ///< of a colour channel, 0 .. 1
 
   /// Standard deviation of a depth, m. Source: Nguyen, Izadi, Lovell, "Modeling Kinect sensor noise for improved 3D
   /// reconstruction and tracking", 3DIMPVT 2012 (axial noise).

@@ -61,6 +61,9 @@ void FrameSource::declare_noise() {
       .unit("px")
       .range(0, 10)
       .doc("Noise across the line of sight, in pixels of the image before pixel_stride.");
+  params_.add("sigma_color", conditioning_.sigma_color)
+      .above(0)
+      .doc("Noise of a colour channel, where 0 is black and 1 the brightest that the camera can tell.");
 }
 
 void FrameSource::open(Context& context) {

@@ -54,7 +54,8 @@ void look(const Map& map, const ViewPredictor& predictor, const HoldoutPoses& po
   const auto pose = poses.T_map_camera(view.frame);
   view.has_pose = pose.has_value();
   if (!pose) return;
-  view.prediction.reset(DepthScorer::sampling_camera(view.frame.camera, kHoldoutStep), 1, *pose);
+  view.prediction.reset(DepthScorer::sampling_camera(view.frame.camera, kHoldoutStep), 1, *pose,
+                        map.color_channels());
   predictor.predict_all(map, view.prediction, worker);
 }
 
@@ -94,6 +95,7 @@ std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source,
 
   predictor.prepare({&map}, workers);
   DepthScorer scorer;
+  ColorScorer color;
   Holdout result;
   result.poses = poses.name;
   // In batches: images are read and predicted in parallel, and scored in order.
@@ -108,11 +110,14 @@ std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source,
     for (std::size_t i = 0; i < n; ++i) {
       if (!batch[i].has_pose) continue;
       scorer.add(batch[i].frame, batch[i].prediction, kHoldoutStep);
+      if (batch[i].prediction.color_channels > 0 && !batch[i].frame.color.empty())
+        color.add(batch[i].frame, batch[i].prediction, kHoldoutStep);
       ++result.frames;
     }
   }
   if (result.frames == 0) return std::nullopt;
   result.score = scorer.score();
+  if (!color.empty()) result.color = color.score();
   return result;
 }
 

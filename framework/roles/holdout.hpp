@@ -9,6 +9,7 @@
 #include "framework/roles/frame_filter.hpp"
 #include "framework/roles/frame_source.hpp"
 #include "framework/roles/view_predictor.hpp"
+#include "framework/slam/color_score.hpp"
 #include "framework/slam/depth_score.hpp"
 #include "framework/slam/trajectory.hpp"
 
@@ -35,6 +36,7 @@ constexpr int kHoldoutStep = 8;
 
 struct Holdout {
   DepthScore score;
+  std::optional<ColorScore> color;  ///< where map and frames have colour, and something of it was seen
   std::size_t frames = 0;  ///< held-out frames that had a pose
   std::string poses;       ///< HoldoutPoses::name
 };

@@ -66,7 +66,7 @@ void ViewPredictor::tick(Context&, std::size_t particle, int worker) {
 
 std::shared_ptr<Prediction> ViewPredictor::blank_view(std::size_t particle) {
   auto out = pool_.take();
-  out->reset(frame->camera, stride_, belief->pose[particle]);
+  out->reset(frame->camera, stride_, belief->pose[particle], belief->map[particle]->color_channels());
   return out;
 }
 

@@ -58,7 +58,7 @@ void Weighting::tick(Context&, std::size_t particle, int worker) {
   const Prediction& prediction = *belief->prediction[particle];
   const MeasuredPixels& pixels = measured(prediction);
   residuals_[worker].compute(pixels, prediction);
-  scores_[particle] = score(pixels, residuals_[worker]);
+  scores_[particle] = score(pixels, residuals_[worker], prediction);
 }
 
 void Weighting::after(Context& context) {

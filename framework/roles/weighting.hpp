@@ -19,7 +19,7 @@ struct ViewScore {
 };
 
 /// Base of every `weighting.*`: adds the log likelihood of a frame to every particle and normalises. It knows no map: a
-/// likelihood compares ranges only.
+/// likelihood compares ranges, and what else a prediction says.
 /// Where no particle's map shows anything at a compared pixel, or no particle's new weight is finite, the weights stay
 /// as they were: a warning says so once, and the metric `degenerate` is 1 in that frame. A particle whose likelihood is
 /// no number gets weight 0.
@@ -46,8 +46,10 @@ class Weighting : public ParticleModule {
  protected:
   /// pixels: default of the parameter of that name.
   explicit Weighting(int pixels);
-  /// The likelihood of the measured ranges. Called from any worker; sums in the order of the pixels.
-  virtual ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals) const = 0;
+  /// The likelihood of the measured pixels. prediction: the particle's, which the residuals come from. Called from any
+  /// worker; sums in the order of the pixels.
+  virtual ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
+                          const Prediction& prediction) const = 0;
 
   double jump_m_ = 0;  ///< see PixelGrid; for likelihoods that leave jumps out
 

@@ -35,6 +35,7 @@ Frame decimated(const Frame& frame, int stride) {
   out.depth = kept(frame.depth, from, out.camera, stride, 1);
   out.sigma = kept(frame.sigma, from, out.camera, stride, 1);
   out.confidence = kept(frame.confidence, from, out.camera, stride, 1);
+  out.color_sigma = frame.color_sigma;
   out.color = kept(frame.color, from, out.camera, stride, 3);
   return out;
 }

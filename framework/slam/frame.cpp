@@ -7,9 +7,10 @@ namespace {
 /// Names every member: with one more the compiler stops here, so that none is forgotten.
 template <class F, class Do>
 void each_member(F& frame, const Do& act) {
-  auto& [index, stamp_s, camera, T_base_camera, depth, sigma, lateral_px, confidence, color, T_world_camera_ref] = frame;
+  auto& [index, stamp_s, camera, T_base_camera, depth, sigma, lateral_px, confidence, color, color_sigma, reference] =
+      frame;
   act(index), act(stamp_s), act(camera), act(T_base_camera), act(depth), act(sigma), act(lateral_px), act(confidence);
-  act(color), act(T_world_camera_ref);
+  act(color), act(color_sigma), act(reference);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Frame {
   /// larger is better, in the sensor's own units; empty where the source has none. Means nothing where there is no return.
   std::vector<float> confidence;
   std::vector<std::uint8_t> color;        ///< [rows*cols*3] RGB, row-major; empty where the source has none
+  float color_sigma = 0.03f;              ///< standard deviation of a colour channel, of 0 .. 1
   std::optional<Pose> T_world_camera_ref;  ///< the data set's reference pose, where it has one
 
   bool valid(int pixel) const { return depth[static_cast<std::size_t>(pixel)] == depth[static_cast<std::size_t>(pixel)]; }

@@ -27,6 +27,8 @@ class Map {
   /// The kind, as in the belief's facet "map.<kind>": "ppm", "vdb".
   virtual std::string_view kind() const = 0;
   virtual MapStats stats() const = 0;
+  /// Channels of colour beside the geometry: 0 (none), 1 (intensity) or 3 (red, green, blue).
+  virtual int color_channels() const { return 0; }
   /// Adds every block of memory (address, size) of this map that is not in `seen` yet; returns the bytes added.
   /// Over the particles of a belief the sum is what the maps occupy together.
   virtual std::int64_t account(std::unordered_set<const void*>& seen) const = 0;

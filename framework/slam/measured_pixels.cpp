@@ -37,6 +37,7 @@ MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int 
       const Eigen::Vector3d ray = predicted.ray(x, y);
       const double length = ray.norm();
       out.pixel.push_back(static_cast<std::uint32_t>(y * predicted.cols + x));
+      out.source.push_back(static_cast<std::uint32_t>(at));
       out.range.push_back(static_cast<float>(frame.depth[source] * length));
       out.variance.push_back(static_cast<float>(std::pow(frame.sigma[source] * length, 2)));
       out.lateral.push_back(static_cast<float>(frame.lateral_px * frame.depth[source] / std::abs(frame.camera.fx)));

@@ -19,6 +19,7 @@ struct PixelGrid {
 /// return, row-major.
 struct MeasuredPixels {
   std::vector<std::uint32_t> pixel;  ///< index into the arrays of the Prediction
+  std::vector<std::uint32_t> source;  ///< index into the arrays of the Frame
   std::vector<float> range;          ///< m along the ray
   std::vector<float> variance;       ///< m^2 of the range
   std::vector<float> lateral;        ///< m, standard deviation across the ray (Frame::lateral_px at this depth)

@@ -6,7 +6,7 @@
 
 namespace ppm {
 
-void Prediction::reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_) {
+void Prediction::reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_, int channels) {
   camera = frame_camera.decimated(stride_);
   stride = stride_;
   T_map_camera = T_map_camera_;
@@ -18,6 +18,9 @@ void Prediction::reset(const Camera& frame_camera, int stride_, const Pose& T_ma
   chunk.assign(n, kNone);
   face.assign(n, kNone);
   bary.assign(2 * n, 0.0f);
+  color_channels = channels;
+  color.assign(static_cast<std::size_t>(channels) * n, 0.0f);
+  color_variance.assign(channels > 0 ? n : 0, 0.0f);
 }
 
 Eigen::Vector3d Prediction::direction(std::size_t pixel) const {
@@ -36,9 +39,10 @@ namespace {
 /// Names every member: with one more the compiler stops here, so that none is forgotten.
 template <class P, class Do>
 void each_member(P& prediction, const Do& act) {
-  auto& [camera, stride, T_map_camera, range, mean, variance, normal, chunk, face, bary] = prediction;
+  auto& [camera, stride, T_map_camera, range, mean, variance, normal, chunk, face, color_channels, color,
+         color_variance, bary] = prediction;
   act(camera), act(stride), act(T_map_camera), act(range), act(mean), act(variance), act(normal);
-  act(chunk), act(face), act(bary);
+  act(chunk), act(face), act(color_channels), act(color), act(color_variance), act(bary);
 }
 
 }  // namespace

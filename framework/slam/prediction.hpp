@@ -37,11 +37,14 @@ struct Prediction {
   std::vector<float> normal;    ///< [3*pixels] xyz interleaved, unit, map frame, turned towards the camera; 0 at a miss
   std::vector<std::uint32_t> chunk;  ///< the map's chunk hit; kNone = miss
   std::vector<std::uint32_t> face;   ///< the element (PPM: face) within the chunk
+  int color_channels = 0;             ///< C: 0 (the map has no colour), 1 (intensity) or 3 (red, green, blue)
+  std::vector<float> color;           ///< [C*pixels] interleaved, 0 .. 1 as the camera encodes it; 0 at a miss
+  std::vector<float> color_variance;  ///< [pixels] of each channel alike, by the map alone; empty where C = 0
   std::vector<float>
       bary;  ///< [2*pixels] u, v of the hit: p = (1-u-v) p0 + u p1 + v p2; 0 where elements are no triangles
 
-  /// Sizes every array for the camera and fills them with misses. Keeps capacity.
-  void reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_);
+  /// Sizes every array for the camera and fills them with misses. Keeps capacity. channels: of colour, the map's.
+  void reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_, int channels = 0);
   bool hit(std::size_t pixel) const { return chunk[pixel] != kNone; }
 
   /// Smallest cosine between ray and normal that is divided by: an offset along the normal moves a grazing hit at most

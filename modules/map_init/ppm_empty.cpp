@@ -8,10 +8,11 @@ namespace ppm {
 namespace {
 
 enum class Start { reference, identity };
+enum class TextureColor { none = 0, intensity = 1, rgb = 3 };  // channels
 
 /// Makes the belief: particles with equal weights at one pose, sharing one empty mesh map; the first frame is on every
 /// path. Runs in the first frame (`when: {until_frame: 0}`); it starts over wherever it runs.
-/// throws  DataError where the start is the reference and the frame has none
+/// throws  DataError where the start is the reference and the frame has none, or the map has colour and the frame none
 class PpmEmpty final : public Module {
  public:
   In<Frame> frame{this, "frame", "The first frame: its stamp, and its reference pose where the map starts there."};
@@ -37,6 +38,13 @@ class PpmEmpty final : public Module {
         .unit("m")
         .above(0)
         .doc("Standard deviation of the offset between a face and the true surface before it is observed.");
+    params_
+        .add_choice(
+            "color", color_,
+            {{"none", TextureColor::none}, {"intensity", TextureColor::intensity}, {"rgb", TextureColor::rgb}})
+        .doc(
+            "Colour in the texture, mean and variance a texel: none, its intensity, or red, green and blue. The source "
+            "must give colour images then.");
   }
 
   void tick(Context&) override {
@@ -45,6 +53,9 @@ class PpmEmpty final : public Module {
     if (start_ == Start::reference && !reference)
       throw DataError("the source", first->index, "has no reference pose to start the map at; set `start: identity`");
     const Pose T_map_camera = start_ == Start::reference ? *reference : Pose::Identity();
+    settings_.color_channels = static_cast<int>(color_);
+    if (settings_.color_channels > 0 && first->color.empty())
+      throw DataError("the source", first->index, "gives no colour for the map; set `color: true` at the source");
     auto& particles = *belief;
     particles.init(static_cast<std::size_t>(particles_), T_map_camera, std::make_shared<const PpmMap>(settings_));
     if (start_ == Start::identity) {
@@ -58,6 +69,7 @@ class PpmEmpty final : public Module {
  private:
   int particles_ = 100;
   Start start_ = Start::reference;
+  TextureColor color_ = TextureColor::none;
   PpmSettings settings_;
 };
 

@@ -9,7 +9,8 @@ namespace {
 using namespace ppm;
 
 /// Writes what a frame says into every particle's mesh.
-/// frame   [rows*cols] depth and its sigma, NaN = no return; lateral_px
+/// frame   [rows*cols] depth and its sigma, NaN = no return; lateral_px; color where the map has it (DataError where
+///         the frame has none)
 /// belief  needs a prediction of this frame's view (any stride: the update then works on the prediction's grid)
 /// source  paper, section 4.3
 class PpmBayesUpdate final : public MapEditor {
@@ -23,6 +24,7 @@ class PpmBayesUpdate final : public MapEditor {
     add_holes();
     add_votes();
     add_excess();
+    add_color();
   }
 
   void before(Context&) override { settings_.share(); }
@@ -185,6 +187,20 @@ class PpmBayesUpdate final : public MapEditor {
             "A face learns only after about so many frames have seen it: frames that follow each other share the error "
             "of "
             "their poses.");
+  }
+  void add_color() {
+    params_
+        .add_choice("color_exposure", settings_.color.exposure,
+                    {{"gain", ColorExposure::gain}, {"fixed", ColorExposure::fixed}})
+        .doc(
+            "For maps with colour: gain divides an image by how much brighter it is than what the map predicts, channel "
+            "by channel, so that the map keeps the exposure it began with; fixed takes colours as they are, the paper's "
+            "form.");
+    params_.add("color_drift", settings_.color.drift)
+        .range(0, 1)
+        .doc(
+            "Standard deviation by which a texel's colour may change between two images that see it, where 1 is the "
+            "brightest: for lighting that changes. 0 is the paper's form, which weighs the first image like the last.");
   }
   static bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
 

@@ -18,7 +18,7 @@ const PpmMap& as_ppm(const Map& map) {
 /// Predicts views of a mesh map by ray casting.
 ///
 /// prediction  range to the base face (not to the described surface), texel mean and variance at the hit, the face's
-///             normal; a face seen from its unobserved side is no hit unless `backfaces` says so
+///             normal; colour where the map has it; a face seen from its unobserved side is no hit unless `backfaces` says so
 ///
 /// metrics     scenes, built (acceleration structures alive; built in this frame), scenes_mb
 ///

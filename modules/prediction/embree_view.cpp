@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 
 #include "framework/core/error.hpp"
+#include "modules/maps/ppm/color_sample.hpp"
 #include "modules/maps/ppm/ppm_map.hpp"
 #include "modules/maps/ppm/texel_sample.hpp"
 #include "modules/maps/ppm/visible_chunks.hpp"
@@ -185,7 +186,16 @@ class ViewTracer {
       out_.face[p] = f;
       out_.bary[2 * p] = u;
       out_.bary[2 * p + 1] = v;
+      if (out_.color_channels > 0) read_color(chunk, f, u, v, p);
     }
+  }
+
+  void read_color(const PpmChunk& chunk, std::uint32_t f, float u, float v, std::size_t p) {
+    const ColorSample color = options_.linear_texels ? linear_color(*chunk.geometry, *chunk.texels, f, u, v)
+                                                     : nearest_color(*chunk.geometry, *chunk.texels, f, u, v);
+    const auto n = static_cast<std::size_t>(out_.color_channels);
+    std::copy_n(color.mean.begin(), n, &out_.color[n * p]);
+    out_.color_variance[p] = color.variance;
   }
 
   const PpmMap& map_;
@@ -207,6 +217,8 @@ class ViewTracer {
 
 void trace_view(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
                 const Rows& rows, Prediction& out) {
+  PPM_CHECK(out.color_channels == 0 || out.color_channels == map.color_channels(),
+            "a view with {} channels of colour of a map with {}", out.color_channels, map.color_channels());
   switch (options.packet) {
     case 1:
       return ViewTracer<1>(map, scenes, options, rows, out).trace();

@@ -18,7 +18,7 @@ struct EmbreeViewOptions {
 /// Fills rows of `out` (reset to misses; its camera and pose set) with what its camera sees of the map: packets of
 /// neighbouring pixels are traced through the scenes of the chunks whose boxes they may meet, nearest box first, until
 /// no box is nearer than the hits. A pure function of its arguments: the same bytes each time, however rows are
-/// grouped. scenes: by chunk number, null for an empty chunk.
+/// grouped. Colour is filled where `out` has it; its channels must be the map's then. scenes: by chunk number, null for an empty chunk.
 void trace_view(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
                 const Rows& rows, Prediction& out);
 

@@ -105,6 +105,7 @@ void add_coat_stand(SceneBuilder& s, const Isometry3d& T) {
     cylinder(s, Vec(0, 0, 1.62) + R * Vec(0, 0, 0.09), 0.014, 0.18, kWalnut, R);
   }
   box(s, {0.10, 0.06, 1.15}, {0.16, 0.34, 0.85}, kBlue, yaw(25));
+  s.paint({{0.08, 0.08, 0.08}, kBlue * 0.6f});  // a checked coat
   cylinder(s, {-0.10, -0.05, 1.30}, 0.09, 0.55, kRed);
 }
 

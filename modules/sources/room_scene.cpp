@@ -1,5 +1,7 @@
 #include "modules/sources/room_scene.hpp"
 
+#include <limits>
+
 #include "modules/sources/room_furniture.hpp"
 #include "modules/sources/room_parts.hpp"
 
@@ -10,6 +12,7 @@ using namespace parts;
 namespace {
 
 constexpr double kThick = 0.1;  // of walls, floor and ceiling
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 void add_shell(SceneBuilder& s) {
   const Vec h = kRoomHalf;
@@ -17,6 +20,7 @@ void add_shell(SceneBuilder& s) {
   const Color paint(0.78f, 0.76f, 0.70f), accent(0.50f, 0.60f, 0.56f);
   s.begin_object("floor");
   box(s, {0, 0, -kThick / 2}, {2 * h.x() + 2 * kThick, 2 * h.y() + 2 * kThick, kThick}, {0.52f, 0.40f, 0.28f});
+  s.paint({{1.10, 0.16, kEndless}, {0.44f, 0.33f, 0.22f}});  // boards
   s.begin_object("ceiling");
   box(s, {0, 0, height + kThick / 2}, {2 * h.x() + 2 * kThick, 2 * h.y() + 2 * kThick, kThick}, kWhite);
   s.begin_object("east wall");
@@ -25,6 +29,7 @@ void add_shell(SceneBuilder& s) {
   box(s, {-h.x() - kThick / 2, 0, h.z()}, {kThick, 2 * h.y(), height}, paint);
   s.begin_object("north wall");
   box(s, {0, h.y() + kThick / 2, h.z()}, {2 * h.x(), kThick, height}, accent);
+  s.paint({{0.30, kEndless, kEndless}, {0.55f, 0.65f, 0.60f}});  // wallpaper in stripes
   s.begin_object("south wall");
   box(s, {0, -h.y() - kThick / 2, h.z()}, {2 * h.x(), kThick, height}, paint);
   s.begin_object("skirting boards");
@@ -38,6 +43,7 @@ void add_small_things(SceneBuilder& s) {
   s.begin_object("rug", at(0.0, 0.75, 0, 0));
   box(s, {0, 0, 0.006}, {2.6, 1.7, 0.012}, kRed * 0.9f);
   box(s, {0, 0, 0.007}, {2.3, 1.4, 0.014}, kCream);
+  s.paint({{0.115, 0.10, kEndless}, kCream * 0.8f});
   for (double x : {-0.8, 0.0, 0.8}) box(s, {x, 0, 0.008}, {0.45, 0.45, 0.016}, kBlue, yaw(45));
   s.begin_object("ceiling lamp", at(0, 0.3, 0, 0));
   cylinder(s, {0, 0, 2.56}, 0.22, 0.08, kCream);

@@ -19,4 +19,9 @@ void SceneBuilder::add(Solid::Shape shape, const Eigen::Vector3d& center, const 
   objects_.back().end = static_cast<std::uint32_t>(solids_.size());
 }
 
+void SceneBuilder::paint(const Pattern& pattern) {
+  PPM_CHECK(!solids_.empty(), "add() comes first");
+  solids_.back().pattern = pattern;
+}
+
 }  // namespace ppm

@@ -14,6 +14,8 @@ class SceneBuilder {
   /// center: in the object's frame; R_object_local: the solid's axes there.
   void add(Solid::Shape shape, const Eigen::Vector3d& center, const Eigen::Vector3d& half,
            const Eigen::Vector3f& albedo, const Eigen::Matrix3d& R_object_local = Eigen::Matrix3d::Identity());
+  /// Gives the solid that was added last a pattern.
+  void paint(const Pattern& pattern);
   /// The scene of all that was added.
   AnalyticScene build() const { return {solids_, objects_}; }
 

@@ -22,7 +22,19 @@ class SevenScenes final : public FrameSource {
         .above(0)
         .doc("Images per second: an image's time is its number divided by this.");
     params_.add("color", settings_.color)
-        .doc("Also read the colour images. They are taken as they are, without registration to the depth images.");
+        .doc("Also read the colour images.");
+    params_.add("color_focal", settings_.color_camera.focal_px)
+        .unit("px")
+        .range(0, 1e5)
+        .doc(
+            "Focal length of the camera that took the colour images, to register them to depth pixel by pixel; its "
+            "image has the size and the principal point of the depth image. 0 takes them as they are. The data set's "
+            "own, of a Kinect, are not registered: 0.897 times the depth camera's focal length.");
+    params_.add("color_offset", settings_.color_camera.t_color_depth)
+        .unit("m")
+        .doc(
+            "The depth camera's centre in the colour camera's frame, whose axes are parallel; a Kinect's is [-2.5 cm, "
+            "0 cm, 0 cm]. Only with color_focal.");
   }
 
  private:

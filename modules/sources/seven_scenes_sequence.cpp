@@ -81,7 +81,10 @@ Frame SevenScenesSequence::read(std::int64_t index) const {
   frame.camera = camera_;
   frame.T_world_camera_ref = reference_pose(index);
   read_depth_image(file(index, ".depth.png"), settings_.depth_scale, frame);
-  if (settings_.color) read_color_image(file(index, ".color.jpg"), frame);
+  if (settings_.color) {
+    read_color_image(file(index, ".color.jpg"), frame);
+    if (!settings_.color_camera.is_registered()) register_color(settings_.color_camera, frame);
+  }
   return frame;
 }
 

@@ -94,6 +94,14 @@ double signed_distance(const Solid& solid, const Vec& p_world) {
   return 0;
 }
 
+Eigen::Vector3f albedo_at(const Solid& solid, const Vec& p_world) {
+  if (solid.pattern.size.isZero()) return solid.albedo;
+  // Half a cell off, so that no face of a centred solid lies between two cells.
+  const Vec p = solid.R_world_local.transpose() * (p_world - solid.center);
+  const Vec cell = (p.array() / solid.pattern.size.array() + 0.5).floor();
+  return std::fmod(std::abs(cell.sum()), 2.0) == 1.0 ? solid.pattern.albedo : solid.albedo;
+}
+
 Eigen::AlignedBox3d bounds(const Solid& solid) {
   const Vec reach = solid.R_world_local.cwiseAbs() * solid.half;
   return {solid.center - reach, solid.center + reach};

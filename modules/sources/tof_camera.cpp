@@ -31,9 +31,10 @@ Echo echo(const AnalyticScene& scene, const SceneHit& hit, const Eigen::Vector3d
           const Eigen::Vector3d& direction, bool color) {
   if (hit.solid == SceneHit::kNone) return {};
   Echo e{hit.range_m, 0, -hit.normal.dot(direction), hit, {}};
-  const Eigen::Vector3f& albedo = scene.solids()[hit.solid].albedo;
-  e.amplitude = albedo.mean() * e.cosine / (hit.range_m * hit.range_m);
-  if (color) e.color = lit(albedo, origin + hit.range_m * direction, hit.normal);
+  const Solid& solid = scene.solids()[hit.solid];
+  e.amplitude = solid.albedo.mean() * e.cosine / (hit.range_m * hit.range_m);
+  const Eigen::Vector3d p = origin + hit.range_m * direction;
+  if (color) e.color = lit(albedo_at(solid, p), p, hit.normal);
   return e;
 }
 

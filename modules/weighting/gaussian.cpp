@@ -1,9 +1,8 @@
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "framework/graph/registry.hpp"
 #include "framework/roles/weighting.hpp"
+#include "modules/weighting/range_gaussian.hpp"
 
 namespace {
 
@@ -17,27 +16,21 @@ using namespace ppm;
 class GaussianWeighting final : public Weighting {
  public:
   GaussianWeighting() : Weighting(0) {
-    params_
-        .add_choice("variance", variance_,
-                    {{"texel", Variance::texel}, {"texel_and_sensor", Variance::texel_and_sensor}})
-        .doc(
-            "Variance of a pixel: the texel's alone, as in the paper, or the predictive one, with the sensor's added.");
+    range_.declare(params_);
   }
 
  protected:
-  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals) const override {
-    const double sensor_share = variance_ == Variance::texel_and_sensor ? 1.0 : 0.0;
+  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
+                  const Prediction&) const override {
     ViewScore s;
     for (std::size_t i = 0; i < measured.size(); ++i) {
-      const double r = residuals.residual[i];
       if (residuals.residual[i] == Prediction::kMiss) {
         ++s.misses;
         continue;
       }
-      const double variance = std::max(residuals.map_variance[i] + sensor_share * measured.variance[i], kMinVariance);
-      const double square = r * r / variance;
-      s.log_likelihood -= 0.5 * (square + std::log(2 * std::numbers::pi * variance));
-      s.outliers += square > 9.0;
+      const double r = residuals.residual[i], variance = range_.variance(measured, residuals, i);
+      s.log_likelihood += log_normal(r, variance);
+      s.outliers += r * r > 9.0 * variance;
       s.residual_sum += std::abs(r);
       ++s.hits;
     }
@@ -45,8 +38,7 @@ class GaussianWeighting final : public Weighting {
   }
 
  private:
-  static constexpr double kMinVariance = 1e-10;  // m^2: a map may be certain, but not beyond 10 micrometres
-  enum class Variance { texel, texel_and_sensor } variance_ = Variance::texel;
+  RangeGaussian range_;
 };
 
 }  // namespace

@@ -1,23 +1,17 @@
 #include <cmath>
-#include <numbers>
 
 #include "framework/graph/registry.hpp"
 #include "framework/roles/weighting.hpp"
+#include "modules/weighting/range_mixture.hpp"
 
 namespace {
 
 using namespace ppm;
 
-/// A likelihood for real frames. Each pixel is a mixture: the map's surface, with everything that blurs it along the
-/// ray, or something else, anywhere up to max_range. A pixel where the map shows nothing has a density of its own.
-/// Neighbouring pixels err together, so the sum of the logs is scaled down (temper).
+/// A likelihood for real frames: of each pixel the mixture of RangeMixture. Neighbouring pixels err together, so the sum
+/// of the logs is scaled down (temper).
 ///
-/// Variance along the ray, with c = |normal . ray|:
-///   sensor + (texel + model_sigma^2 + lateral^2 (1 - c^2)) / c^2
-/// lateral is the frame's standard deviation across the ray.
-///
-/// source  Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.3 (hit and random parts of the beam model;
-///         exponent of the likelihood)
+/// source  Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.3 (beam model; exponent of the likelihood)
 class RobustWeighting final : public Weighting {
  public:
   RobustWeighting() : Weighting(1200) {
@@ -26,18 +20,7 @@ class RobustWeighting final : public Weighting {
         .range(0, 1)
         .above(0)
         .doc("Factor on the log likelihood: below 1 for pixels that err together.");
-    params_.add("outlier_share", outlier_share_)
-        .range(0, 1)
-        .above(0)
-        .doc("Prior probability that a pixel measures something else than the map's surface.");
-    params_.add("max_range", max_range_).unit("m").above(0).doc("An outlier may lie anywhere up to here.");
-    params_.add("miss_density", miss_density_)
-        .above(0)
-        .doc("Density, in 1/m, of any measured range where the map shows nothing.");
-    params_.add("model_sigma", model_sigma_)
-        .unit("m")
-        .range(0, 1)
-        .doc("Standard deviation of the map's surface, along the normal, beyond what its texels say.");
+    range_.declare(params_);
     params_.add("depth_jump", jump_m_)
         .unit("m")
         .range(0, 10)
@@ -47,9 +30,9 @@ class RobustWeighting final : public Weighting {
   }
 
  protected:
-  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals) const override {
-    const double inlier = (1 - outlier_share_) / std::sqrt(2 * std::numbers::pi), outlier = outlier_share_ / max_range_;
-    const double log_miss = std::log(miss_density_);
+  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
+                  const Prediction&) const override {
+    const double log_miss = std::log(range_.miss_density);
     double sum = 0;
     ViewScore s;
     for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -58,14 +41,10 @@ class RobustWeighting final : public Weighting {
         sum += log_miss;
         continue;
       }
-      const double r = residuals.residual[i], c2 = residuals.cosine[i] * residuals.cosine[i];
-      const double lateral = measured.lateral[i];
-      const double variance = measured.variance[i] + residuals.map_variance[i] +
-                              (model_sigma_ * model_sigma_ + lateral * lateral * (1 - c2)) / c2;
-      const double surface = inlier / std::sqrt(variance) * std::exp(-0.5 * r * r / variance);
-      sum += std::log(surface + outlier);
-      s.outliers += outlier > surface;
-      s.residual_sum += std::abs(r);
+      const auto density = range_.parts(measured, residuals, i);
+      sum += std::log(density.sum());
+      s.outliers += density.outlier > density.surface;
+      s.residual_sum += std::abs(residuals.residual[i]);
       ++s.hits;
     }
     s.log_likelihood = temper_ * sum;
@@ -73,7 +52,8 @@ class RobustWeighting final : public Weighting {
   }
 
  private:
-  double temper_ = 0.03, outlier_share_ = 0.1, max_range_ = 10.0, miss_density_ = 0.1, model_sigma_ = 0.005;
+  double temper_ = 0.03;
+  RangeMixture range_;
 };
 
 }  // namespace

@@ -15,7 +15,8 @@ struct Golden {
   double ate_m, coverage, median_mm;  // ATE and median at most, coverage at least
 };
 
-void runs_as_it_did(const Golden& golden) {
+/// Returns run.json.
+nlohmann::json runs_as_it_did(const Golden& golden) {
   INFO(golden.graph);
   TempFolder folder;
   const auto out = folder / "run";
@@ -33,12 +34,20 @@ void runs_as_it_did(const Golden& golden) {
   CHECK(json["holdout"]["median_mm"].get<double>() <= golden.median_mm);
   for (const char* file : {"map.ply", "map.ppm", "map.glb", "map.png", "metrics.csv", "trajectory.tum", "config.effective.yaml"})
     CHECK(std::filesystem::file_size(out / file) > 0);
+  return json;
 }
 
 }  // namespace
 
 TEST_CASE("room.yaml runs a few frames") {
   runs_as_it_did({"room.yaml", {"--set", "init.particles=20"}, 0.04, 0.9, 30});
+}
+
+TEST_CASE("room_color.yaml runs a few frames, and its colours are measured") {
+  const auto color = runs_as_it_did({"room_color.yaml", {"--set", "init.particles=20"}, 0.04, 0.9, 30})["holdout"]["color"];
+  CHECK(color["channels"] == 3);
+  CHECK(color["median"].get<double>() < 0.02);
+  CHECK(color["log_density"].get<double>() > 0.5);
 }
 
 TEST_CASE("the kitchen's graphs run a few frames") {
@@ -48,6 +57,7 @@ TEST_CASE("the kitchen's graphs run a few frames") {
   runs_as_it_did({"kitchen_mapping.yaml", {"--set", path}, 1e-6, 0.9, 12});
   runs_as_it_did({"kitchen_mapping_paper.yaml", {"--set", path}, 1e-6, 0.88, 12});
   runs_as_it_did({"kitchen_slam.yaml", {"--set", path, "--set", "init.particles=20"}, 0.03, 0.9, 25});
+  runs_as_it_did({"kitchen_slam_color.yaml", {"--set", path, "--set", "init.particles=20"}, 0.03, 0.9, 25});
   runs_as_it_did({"kitchen_slam_paper.yaml", {"--set", path, "--set", "init.particles=20"}, 0.1, 0.7, 100});
 }
 

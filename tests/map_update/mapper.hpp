@@ -10,17 +10,20 @@ namespace ppm::test {
 /// Predicts and updates one map, frame by frame, with known poses.
 class Mapper {
  public:
-  explicit Mapper(UpdateSettings settings = {}, PpmSettings map_settings = {})
-      : settings_(settings), map_(std::make_shared<PpmMap>(map_settings)) {
+  explicit Mapper(UpdateSettings settings = {}, PpmSettings map_settings = {}, int threads = 1)
+      : settings_(settings), map_(std::make_shared<PpmMap>(map_settings)), workers_(threads) {
     settings_.share();
   }
+  /// Goes on from a map.
+  explicit Mapper(std::shared_ptr<const PpmMap> map) : map_(std::move(map)) { settings_.share(); }
 
   const PpmMap& map() const { return *map_; }
+  std::shared_ptr<const PpmMap> handle() const { return map_; }
 
-  Prediction predict(const Camera& camera, const Pose& T_map_camera) {
+  Prediction predict(const Camera& camera, const Pose& T_map_camera, int stride = 1) {
     scenes_.update({map_.get()}, workers_);
     Prediction p;
-    p.reset(camera, 1, T_map_camera);
+    p.reset(camera, stride, T_map_camera, map_->color_channels());
     trace_view(*map_, scenes_.of(*map_), EmbreeViewOptions{}, all_rows(p.camera), p);
     return p;
   }

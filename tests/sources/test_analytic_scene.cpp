@@ -124,3 +124,15 @@ TEST_CASE("the path closes a loop") {
   CHECK(back.translation().norm() < 0.15);
   CHECK(rotation_angle(back) < 10 * EIGEN_PI / 180);
 }
+
+TEST_CASE("a pattern alternates from cell to cell, in the solid's axes, and an infinite size makes stripes") {
+  Solid solid{Solid::Shape::box, {1, 2, 3}};
+  solid.R_world_local = Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  solid.albedo = {1, 0, 0};
+  CHECK(albedo_at(solid, {1.3, 2, 3}) == Eigen::Vector3f(1, 0, 0));
+  solid.pattern = {{0.2, INFINITY, INFINITY}, {0, 0, 1}};
+  for (double y : {2.05, 1.95, 2.41}) CHECK(albedo_at(solid, {1.3, y, 2.6}) == Eigen::Vector3f(1, 0, 0));
+  for (double y : {2.15, 1.85, 2.25}) CHECK(albedo_at(solid, {0.7, y, 3.2}) == Eigen::Vector3f(0, 0, 1));
+  solid.pattern.size = {0.2, 0.1, 0.1};
+  CHECK(albedo_at(solid, {1.0, 2.15, 3.1}) == Eigen::Vector3f(1, 0, 0));  // two cells on
+}

@@ -30,6 +30,7 @@ class PpmMap final : public Map {
   explicit PpmMap(const PpmSettings& settings);
   std::string_view kind() const override { return "ppm"; }
   MapStats stats() const override;
+  int color_channels() const override { return settings_.color_channels; }
   std::int64_t account(std::unordered_set<const void*>& seen) const override;
   void digest(Digest& digest) const override;
   /// Surface::displaced has a vertex for each texel, see dense_mesh().

@@ -8,8 +8,10 @@ namespace {
 /// Hands new faces to the edit session, with texels that have seen this frame.
 class FaceWriter {
  public:
-  FaceWriter(const UpdateView& view, const TexelSettings& texels, float excess, Boundary& boundary, PpmEdit& edit)
+  FaceWriter(const UpdateView& view, const ColorView& colors, const TexelSettings& texels, float excess,
+             Boundary& boundary, PpmEdit& edit)
       : view_(view),
+        colors_(colors),
         texels_(texels),
         excess_(excess),
         boundary_(boundary),
@@ -29,7 +31,12 @@ class FaceWriter {
     variance_.resize(texel_count(n));
     start_texels(view_, texels_, corner, n, static_cast<float>(map.prior_sigma_m * map.prior_sigma_m), excess_, mean_,
                  variance_);
-    edit_.add_face(ids, static_cast<std::uint8_t>(n), {mean_, variance_}, {0, 0, excess_});
+    if (!colors_.empty()) {
+      color_.resize(static_cast<std::size_t>(colors_.channels()) * mean_.size());
+      color_variance_.resize(mean_.size());
+      start_color(view_, colors_, texels_, corner, n, excess_, {mean_, variance_, color_, color_variance_});
+    }
+    edit_.add_face(ids, static_cast<std::uint8_t>(n), {mean_, variance_, color_, color_variance_}, {0, 0, excess_});
   }
 
  private:
@@ -44,12 +51,13 @@ class FaceWriter {
   }
 
   const UpdateView& view_;
+  const ColorView& colors_;
   const TexelSettings& texels_;
   float excess_;
   Boundary& boundary_;
   PpmEdit& edit_;
   std::vector<std::uint8_t> used_;
-  std::vector<float> mean_, variance_;
+  std::vector<float> mean_, variance_, color_, color_variance_;
 };
 
 /// Pixels where surface may be made in this frame.
@@ -91,7 +99,9 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
     mark_pixels(view, removed, gone);
     classify_pixels(view, settings.gate, settings.classify_sigmas, gone, workers, classes);
   }
+  const ColorView colors(frame, view, classes, edit.map().settings().color_channels, settings.color);
   update_texels(view, classes, kept, settings.texels, workers, edit);
+  update_color(view, colors, classes, kept, settings.texels, workers, edit);
 
   Boundary boundary;
   boundary.build(edit.map(), view, removed);
@@ -105,7 +115,7 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   const auto made = faces.size();
   fill_notches(view, classes, notches, boundary, faces);
   fill_holes(view, settings.holes, boundary, faces);
-  FaceWriter writer(view, settings.texels, excess, boundary, edit);
+  FaceWriter writer(view, colors, settings.texels, excess, boundary, edit);
   for (const auto& f : faces) writer.write(f);
   if (counts)
     *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made,

@@ -9,6 +9,7 @@
 #include "modules/maps/ppm/hole_fill.hpp"
 #include "modules/maps/ppm/new_surface.hpp"
 #include "modules/maps/ppm/notch_fill.hpp"
+#include "modules/maps/ppm/texel_color.hpp"
 #include "modules/maps/ppm/texel_update.hpp"
 
 namespace ppm {
@@ -25,6 +26,7 @@ struct UpdateSettings {
   VoteSettings votes;
   ExcessSettings excess;
   TexelSettings texels;
+  ColorSettings color;  ///< for maps with colour
   NewSurfaceSettings surface;
   NotchSettings notches;
   HoleSettings holes;

@@ -1,0 +1,18 @@
+#include "modules/weighting/range_gaussian.hpp"
+
+#include <algorithm>
+
+namespace ppm {
+
+void RangeGaussian::declare(Params& params) {
+  params.add_choice("variance", of, {{"texel", Variance::texel}, {"texel_and_sensor", Variance::texel_and_sensor}})
+      .doc("Variance of a pixel: the texel's alone, as in the paper, or the predictive one, with the sensor's added.");
+}
+
+double RangeGaussian::variance(const MeasuredPixels& measured, const RangeResiduals& residuals, std::size_t i) const {
+  constexpr double kLeast = 1e-10;  // m^2: a map may be certain, but not beyond 10 micrometres
+  const double sensor = of == Variance::texel_and_sensor ? measured.variance[i] : 0.0;
+  return std::max(residuals.map_variance[i] + sensor, kLeast);
+}
+
+}  // namespace ppm

@@ -1,0 +1,33 @@
+#include "modules/weighting/range_mixture.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace ppm {
+
+void RangeMixture::declare(Params& params) {
+  params.add("outlier_share", outlier_share)
+      .range(0, 1)
+      .above(0)
+      .doc("Prior probability that a pixel measures something else than the map's surface.");
+  params.add("max_range", max_range).unit("m").above(0).doc("An outlier may lie anywhere up to here.");
+  params.add("miss_density", miss_density)
+      .above(0)
+      .doc("Density, in 1/m, of any measured range where the map shows nothing.");
+  params.add("model_sigma", model_sigma)
+      .unit("m")
+      .range(0, 1)
+      .doc("Standard deviation of the map's surface, along the normal, beyond what its texels say.");
+}
+
+RangeMixture::Parts RangeMixture::parts(const MeasuredPixels& measured, const RangeResiduals& residuals,
+                                        std::size_t i) const {
+  const double inlier = (1 - outlier_share) / std::sqrt(2 * std::numbers::pi);
+  const double r = residuals.residual[i], c2 = residuals.cosine[i] * residuals.cosine[i];
+  const double lateral = measured.lateral[i];
+  const double variance = measured.variance[i] + residuals.map_variance[i] +
+                          (model_sigma * model_sigma + lateral * lateral * (1 - c2)) / c2;
+  return {inlier / std::sqrt(variance) * std::exp(-0.5 * r * r / variance), outlier_share / max_range};
+}
+
+}  // namespace ppm
