@@ -67,6 +67,11 @@ class PpmBayesUpdate final : public MapEditor {
             "What the texels of new faces start with: measured fuses the map's prior with what this image measures, "
             "sensor "
             "is zero mean with the sensor's variance (the paper's form).");
+    params_.add("texel_pixels", settings_.texels.least_pixels)
+        .range(0, 1000)
+        .doc(
+            "Texels of new faces are no finer than so many pixels are wide where the face is seen: a view from afar "
+            "makes coarse texels. 0 = the map's texel_size alone.");
     params_.add("gate_update", settings_.texels.gate_sigmas)
         .range(0.1, 100)
         .doc("A measurement farther than so many standard deviations from a texel's surface does not update it.");

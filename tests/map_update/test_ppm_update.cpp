@@ -81,6 +81,19 @@ TEST_CASE("a second view that overlaps the first is stitched to it: no crack, no
   CHECK(misses == 0);
 }
 
+TEST_CASE("a view from afar makes texels no finer than its pixels, one from near those of the map") {
+  const BoxWorld scene;
+  const auto texels = [&](double z, float least_pixels) {
+    UpdateSettings settings;
+    settings.texels.least_pixels = least_pixels;
+    Mapper mapper(settings);
+    mapper.add(scene.frame(small_camera(), look({0, 0, z}), kSigma, 0, false));
+    return mapper.map().stats().texels;
+  };
+  CHECK(texels(-0.9, 2) < texels(-0.9, 0) / 4);  // the far wall is 3.9 m away: 2 pixels are 11 cm
+  CHECK(texels(2.5, 1) == texels(2.5, 0));       // 0.5 m: a pixel is 7 mm, a texel 2 cm
+}
+
 TEST_CASE("a camera whose image rows grow against its y axis maps the same room") {
   const auto scene = room_with_box();
   Camera camera = small_camera();

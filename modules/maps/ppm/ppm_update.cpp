@@ -1,6 +1,7 @@
 #include "modules/maps/ppm/ppm_update.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ppm {
 namespace {
@@ -26,7 +27,7 @@ class FaceWriter {
       corner[k] = boundary_.vertex[face[k]].point;
     }
     const PpmSettings& map = edit_.map().settings();
-    const auto n = edit_.map().divisions_for(corner[0], corner[1], corner[2]);
+    const auto n = divisions(corner);
     mean_.resize(texel_count(n));
     variance_.resize(texel_count(n));
     start_texels(view_, texels_, corner, n, static_cast<float>(map.prior_sigma_m * map.prior_sigma_m), excess_, mean_,
@@ -40,6 +41,14 @@ class FaceWriter {
   }
 
  private:
+  /// By the map's texel size, or by the footprint of pixels here where that is larger.
+  std::uint32_t divisions(const std::array<Eigen::Vector3f, 3>& corner) const {
+    const float wanted = static_cast<float>(edit_.map().settings().texel_size_m);
+    const float depth = view_.project((corner[0] + corner[1] + corner[2]) / 3).z();
+    const float texel = std::max(wanted, texels_.least_pixels * depth * std::abs(view_.inv_fx));
+    const float scale = wanted / texel;  // a smaller face of the same shape
+    return edit_.map().divisions_for(scale * corner[0], scale * corner[1], scale * corner[2]);
+  }
   std::uint32_t id_of(std::uint32_t number) {
     RimVertex& v = boundary_.vertex[number];
     if (v.id == RimVertex::kNew)

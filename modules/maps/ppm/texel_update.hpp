@@ -24,6 +24,7 @@ enum class NewTexels {
 struct TexelSettings {
   TexelForm form = TexelForm::gather;
   NewTexels new_texels = NewTexels::measured;
+  float least_pixels = 1.5f;  ///< texels of new faces are no finer than so many pixels' footprints where they are seen
   SurfaceGate gate;
   float gate_sigmas = 3;  ///< measurements farther from the texel's surface than so many gate spreads are left out
 };
