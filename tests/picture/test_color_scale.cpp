@@ -44,7 +44,7 @@ TEST_CASE("the scale of sigma is logarithmic, from the range on") {
     CHECK(ticks[k] == Approx(std::vector<double>{1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1}[k]));
 }
 
-TEST_CASE("lightness grows along the scale of sigma; zero is grey in that of the mean") {
+TEST_CASE("lightness grows along the scale of sigma, and zero is grey in that of the mean") {
   const ColorScale sigma(Show::sigma, {1e-3f, 1e-1f}), mean(Show::mean, {-0.1f, 0.1f});
   auto lightness = [](const Color& c) { return 0.21f * c.x() + 0.72f * c.y() + 0.07f * c.z(); };
   for (int k = 0; k < 20; ++k)

@@ -42,14 +42,14 @@ TEST_CASE("adjusting and remeshing leave the described surface of a map that was
       const auto &old = before[life.particle()], now = life.map(life.particle());
       if (event == MapLife::Event::update || event == MapLife::Event::gather || now == old) continue;
       const auto jump = surface_jump(test::DescribedRays(*old), test::DescribedRays(*now), {0, 0, -0.3},
-                                     Eigen::Vector3d::UnitZ(), 0.5, 150, seed);
+                                     Eigen::Vector3d::UnitZ(), 0.5, 400, seed);
       INFO("seed " << seed << " step " << step << " event " << static_cast<int>(event) << ": median " << jump.median
                    << ", 95 % " << jump.p95 << ", 99 % " << jump.p99 << ", most " << jump.most << " m, lost "
                    << jump.lost);
       CHECK(jump.median < 1e-4);
       CHECK(jump.p95 < 5e-4);
-      CHECK(jump.p99 < 2e-3);
-      CHECK(jump.most < 1e-2);  // at folds, where displaced faces part or cross
+      CHECK(jump.p99 < 4e-3);
+      CHECK(jump.most < 2e-2);  // at folds, where displaced faces part or cross
       CHECK(jump.lost < 0.01);
     }
   }

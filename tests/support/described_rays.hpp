@@ -63,7 +63,9 @@ class DescribedRays {
 /// How far two described surfaces are apart, along random rays.
 struct SurfaceJump {
   double median = 0, p95 = 0, p99 = 0, most = 0;  ///< m, of |difference of distance|, over rays that meet both
-  double lost = 0;                                ///< share of rays that meet one only
+  /// Share of rays that meet one only, or something 5 cm and more from it: at a rim or a fold a ray passes by the
+  /// surface and goes on to what is behind.
+  double lost = 0;
 };
 
 /// Rays from `origin`, uniform over directions within `half_angle` (rad) of `axis`.
@@ -78,10 +80,11 @@ inline SurfaceJump surface_jump(const DescribedRays& a, const DescribedRays& b, 
     const double r = std::sqrt(1 - z * z);
     const Eigen::Vector3d ray = R * Eigen::Vector3d(r * std::cos(phi), r * std::sin(phi), z);
     const double da = a.distance(origin, ray), db = b.distance(origin, ray);
-    if (std::isfinite(da) && std::isfinite(db))
+    if (!std::isfinite(da) && !std::isfinite(db)) continue;
+    if (std::abs(da - db) < 0.05)
       jump.push_back(std::abs(da - db));
     else
-      lost += std::isfinite(da) != std::isfinite(db);
+      ++lost;
   }
   SurfaceJump result;
   result.lost = static_cast<double>(lost) / rays;
