@@ -38,8 +38,8 @@ change() {  # KEY=VALUE of the update, or NODE.KEY=VALUE
   echo "|---|---|---|---|---|---|---|---|---|---|"
   row "**none**"
   for c in update=scatter new_texels=sensor gate_classify=4 gate_pose=5mm gate_pose=2cm gate_update=2 \
-    thin_every=0 leaf_min=2 leaf_max=4 leaf_rms=3 leaf_valid=0.8 smooth_radius=0 fit_share=0.9 own_share=0.2 \
-    cosine_least=0.15 grazing_every=0 steep_cosine=0 hole_edges=0 notch_angle=0 \
+    thin_every=0 leaf_min=1 leaf_max=4 leaf_rms=3 leaf_valid=0.8 smooth_radius=0 fit_share=0.9 own_share=0.2 \
+    cosine_least=0.15 grazing_every=0 grazing_every=5 excess=none steep_cosine=0 hole_edges=0 notch_angle=0 \
     votes_ratio=0.5 votes_ratio=2 votes_free=65535 votes_cosine=0 votes_forget=0 \
     texel_pixels=0 texel_pixels=2 init.texel_size=1cm init.texel_size=4cm init.cell_size=50cm; do
     change "$c"

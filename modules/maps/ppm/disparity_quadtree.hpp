@@ -24,7 +24,7 @@ struct DisparityImage {
 };
 
 struct QuadtreeSettings {
-  int leaf_min = 1;          ///< px, a power of two
+  int leaf_min = 2;          ///< px, a power of two
   int leaf_max = 16;         ///< px, a power of two
   float rms_sigmas = 2.0f;   ///< a leaf is flat when its residuals' rms is below this many sigmas
   float peak_factor = 4.0f;  ///< ... and none above this multiple of that

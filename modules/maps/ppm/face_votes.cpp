@@ -11,11 +11,14 @@ float cosine_at(const UpdateView& view, std::size_t p) {
   return std::min(std::abs(view.normal[p].dot(view.point[p])) / view.point[p].norm(), 1.0f);
 }
 
+constexpr float kFarthest = 9;  // times the predicted variance: squares beyond 3 standard deviations count as if there
+
 /// Squared distance of a measurement from the surface predicted at its own pixel, minus its predicted variance, m^2.
 float surplus(const UpdateView& view, std::size_t p, float cosine) {
   const float off = view.normal[p].dot(view.point[p]) - view.offset[p];
   const float lateral = view.lateral_px * view.depth[p] * std::abs(view.inv_fx);
-  return off * off - view.prediction->variance[p] - variance_along_normal(view.sigma[p], cosine, lateral);
+  const float predicted = view.prediction->variance[p] + variance_along_normal(view.sigma[p], cosine, lateral);
+  return std::min(off * off, kFarthest * predicted) - predicted;
 }
 
 /// Pixels that see through the map in areas at least 2 radius + 1 pixels thick.

@@ -43,7 +43,7 @@ struct ExcessSettings {
   int prior_hits = 100;        ///< hits that a face's start counts for
   /// A face learns from a frame once it has been hit so many times as often as in that frame: images taken one after
   /// another share the error of their poses, and agree with what they made more than later ones will.
-  int least_views = 25;
+  int least_views = 6;
 };
 
 /// Moves the excess of the faces towards the surplus of this frame, as the mean over all their hits. Before cast_votes():

@@ -17,11 +17,11 @@ namespace ppm {
 /// How a frame changes a map; see the parameters of map_update.ppm_bayes.
 struct UpdateSettings {
   SurfaceGate gate;  ///< copied into the parts below by whoever sets it
-  float classify_sigmas = 5;
+  float classify_sigmas = 6;
   int open_radius = 2;  ///< px, of the opening that leaves thin strips of wanted pixels for later; 0 = none
   int thin_every = 1;   ///< frames: so often thin strips are let through; 0 = never
   /// frames: so often surface may be made down to grazing_cosine, where no view has shown it better; 0 = never
-  int grazing_every = 5;
+  int grazing_every = 3;
   float grazing_cosine = 0.15f;  ///< least cosine of incidence of new surface in those frames
   VoteSettings votes;
   ExcessSettings excess;
