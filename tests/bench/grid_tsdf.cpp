@@ -6,8 +6,9 @@
 #include <open3d/geometry/TriangleMesh.h>
 #include <open3d/pipelines/integration/ScalableTSDFVolume.h>
 #include <open3d/pipelines/integration/UniformTSDFVolume.h>
-#include <open3d/t/geometry/RaycastingScene.h>
 
+#include "modules/maps/ppm/face_grid.hpp"
+#include "modules/maps/ppm/ppm_edit.hpp"
 #include "tests/bench/grid_bench.hpp"
 
 namespace {
@@ -31,23 +32,14 @@ class Tsdf {
   }
 
   Prediction predict(const Camera& camera, const Pose& T_map_camera) {
-    if (!ready_) extract();
+    if (!faces_) extract();
     Prediction out;
     out.reset(camera, 1, T_map_camera);
-    const auto n = static_cast<std::int64_t>(out.range.size());
-    auto rays = open3d::core::Tensor::Zeros({n, 6}, open3d::core::Float32);
-    auto* ray = rays.GetDataPtr<float>();
     for (std::size_t i = 0; i < out.range.size(); ++i) {
       const Eigen::Vector3d direction = out.direction(i);
-      for (int k = 0; k < 3; ++k) {
-        ray[6 * i + static_cast<std::size_t>(k)] = static_cast<float>(T_map_camera.translation()[k]);
-        ray[6 * i + 3 + static_cast<std::size_t>(k)] = static_cast<float>(direction[k]);
-      }
+      const auto hit = faces_->first_hit(T_map_camera.translation(), direction, 0, 20);
+      if (hit) bench::set_hit(out, i, hit->range, direction, voxel_m_ * voxel_m_ / 12);
     }
-    const auto hits = scene_.CastRays(rays)["t_hit"].Contiguous();
-    const auto* range = hits.GetDataPtr<float>();
-    for (std::size_t i = 0; i < out.range.size(); ++i)
-      if (std::isfinite(range[i])) bench::set_hit(out, i, range[i], out.direction(i), voxel_m_ * voxel_m_ / 12);
     return out;
   }
 
@@ -60,22 +52,20 @@ class Tsdf {
  private:
   void extract() {
     const auto mesh = volume_.ExtractTriangleMesh();
-    std::vector<float> vertices;
-    std::vector<std::uint32_t> triangles;
-    for (const auto& v : mesh->vertices_)
-      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(v[k]));
-    for (const auto& t : mesh->triangles_)
-      for (int k = 0; k < 3; ++k) triangles.push_back(static_cast<std::uint32_t>(t[k]));
-    scene_.AddTriangles(
-        open3d::core::Tensor(vertices, {static_cast<std::int64_t>(vertices.size() / 3), 3}, open3d::core::Float32),
-        open3d::core::Tensor(triangles, {static_cast<std::int64_t>(triangles.size() / 3), 3}, open3d::core::UInt32));
-    ready_ = true;
+    PpmEdit edit(std::make_shared<const PpmMap>(PpmSettings{}));
+    std::vector<std::uint32_t> id;
+    for (const auto& v : mesh->vertices_) id.push_back(edit.add_vertex(v.cast<float>()));
+    const std::vector<float> zero(texel_count(1), 0.0f), one(texel_count(1), 1.0f);
+    auto corner = [&](int v) { return id[static_cast<std::size_t>(v)]; };
+    for (const auto& t : mesh->triangles_) edit.add_face({corner(t[0]), corner(t[1]), corner(t[2])}, 1, {zero, one});
+    surface_ = edit.commit();
+    faces_ = std::make_unique<FaceGrid>(*surface_, std::max(2 * voxel_m_, 0.03));
   }
 
   double voxel_m_;
   open3d::pipelines::integration::ScalableTSDFVolume volume_;
-  open3d::t::geometry::RaycastingScene scene_;
-  bool ready_ = false;
+  std::shared_ptr<const PpmMap> surface_;
+  std::unique_ptr<FaceGrid> faces_;  // of surface_
 };
 
 }  // namespace

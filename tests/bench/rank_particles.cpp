@@ -84,7 +84,9 @@ struct Candidate {
 
 void print(const std::vector<std::unique_ptr<Candidate>>& candidates, std::size_t particles, std::size_t frames) {
   fmt::print("{} particles, {} frames\n\n", particles, frames);
-  fmt::print("| weighting | rank of the nearest, median | error of the best, sigma | weighted error, sigma | rank correlation | ESS, median | entropy, nats |\n");
+  fmt::print(
+      "| weighting | rank of the nearest, median | error of the best, sigma | weighted error, sigma | rank correlation "
+      "| ESS, median | entropy, nats |\n");
   fmt::print("|---|---|---|---|---|---|---|\n");
   for (const auto& c : candidates)
     fmt::print("| `{}` {} | {:.0f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} | {:.2f} |\n", c->module, c->params,
