@@ -144,6 +144,32 @@ TEST_CASE("a line meets the described surface where the displaced triangles say,
   CHECK(missed < 0.03 * met);
 }
 
+TEST_CASE("seen along a line, the surface stands off the face that the line meets") {
+  auto patch = wavy(8);
+  DescribedSurface surface(patch.view(), Meeting::seen);
+  const Eigen::Vector3f normal = Eigen::Vector3f(0.2f, -0.1f, 1).normalized();
+  const CastPlane plane{{0.02f, 0.02f, 0.005f}, {0.35f, 0, -0.07f}, {0, 0.35f, 0.035f}, normal};
+  surface.aim(plane, 0.1f);
+  Rng rng(3, 0, 0, purpose_key("lines"));
+  for (int k = 0; k < 1000; ++k) {
+    const auto a = static_cast<float>(0.5 * rng.uniform()), b = static_cast<float>(0.5 * rng.uniform());
+    const auto hit = surface.cast(a, b);
+    REQUIRE(hit.miss == 0);  // no gaps at folds
+    const auto& f = patch.faces[hit.face];
+    const Eigen::Vector3d p = f.corner[0].cast<double>(), e1 = f.corner[1].cast<double>() - p,
+                          e2 = f.corner[2].cast<double>() - p, d = normal.cast<double>();
+    Eigen::Matrix3d m;
+    m << e1, e2, -d;
+    const Eigen::Vector3d x =
+        m.partialPivLu().solve((plane.origin + a * plane.edge1 + b * plane.edge2).cast<double>() - p);
+    CHECK((x[0] > -1e-3 && x[1] > -1e-3 && x[0] + x[1] < 1.001));
+    const auto t = texel_triangle(f.divisions, static_cast<float>(x[0]), static_cast<float>(x[1]));
+    float mean = 0;
+    for (int i = 0; i < 3; ++i) mean += t.weight[i] * f.texels.mean[t.texel[i]];
+    CHECK(hit.offset == Approx(x[2] + mean / e1.cross(e2).normalized().dot(d)).margin(1e-5));
+  }
+}
+
 TEST_CASE("a face resampled from itself stays as it is") {
   Patch patch;
   const Corners c{Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(1.07f, 2, 3), Eigen::Vector3f(1, 2.06f, 3.02f)};

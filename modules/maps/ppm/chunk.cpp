@@ -39,7 +39,7 @@ void Geometry::shrink_to_fit() {
 }
 
 void Texels::shrink_to_fit() {
-  shrink_each(mean, variance, color, color_variance, evidence);
+  shrink_each(mean, variance, color, color_variance, evidence, settled);
 }
 
 std::int64_t Geometry::bytes() const {
@@ -49,7 +49,7 @@ std::int64_t Geometry::bytes() const {
 
 std::int64_t Texels::bytes() const {
   return static_cast<std::int64_t>(sizeof *this) + bytes_of(mean) + bytes_of(variance) + bytes_of(color) +
-         bytes_of(color_variance) + bytes_of(evidence);
+         bytes_of(color_variance) + bytes_of(evidence) + bytes_of(settled);
 }
 
 TexelView TexelArrays::view(std::size_t first, std::size_t count) const {

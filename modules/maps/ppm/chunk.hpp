@@ -79,7 +79,9 @@ struct TexelArrays {
 /// The texture of a chunk: texels lie on a triangular grid over each face, corners and edges included.
 struct Texels : TexelArrays {
   std::vector<FaceEvidence> evidence;  ///< [F]
-  void shrink_to_fit();                ///< see Geometry
+  /// [F] 1: the face took part in a simplification, or came out of one; 0: it is to take part when it is mature.
+  std::vector<std::uint8_t> settled;
+  void shrink_to_fit();  ///< see Geometry
   std::int64_t bytes() const;
 };
 

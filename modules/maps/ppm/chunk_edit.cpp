@@ -88,6 +88,7 @@ void remove_faces(Geometry& geometry, Texels& texels, std::span<const std::uint3
     const std::uint32_t from = geometry.first_texel[f], count = texel_count(geometry.divisions[f]);
     texels.move_down(from, texel, count);
     texels.evidence[kept] = texels.evidence[f];
+    texels.settled[kept] = texels.settled[f];
     geometry.face[kept] = geometry.face[f];
     geometry.divisions[kept] = geometry.divisions[f];
     geometry.first_texel[kept] = texel;
@@ -98,6 +99,7 @@ void remove_faces(Geometry& geometry, Texels& texels, std::span<const std::uint3
   geometry.divisions.resize(kept);
   geometry.first_texel.resize(kept);
   texels.evidence.resize(kept);
+  texels.settled.resize(kept);
   texels.truncate(texel);
 }
 
@@ -143,6 +145,7 @@ void append_faces(Geometry& geometry, Texels& texels, std::span<const NewFace> f
     geometry.first_texel.push_back(static_cast<std::uint32_t>(texels.size()));
     texels.append(f.texels);
     texels.evidence.push_back(f.evidence);
+    texels.settled.push_back(f.settled);
   }
   open_with(geometry.open_edge, sorted_edges(geometry, added));
 }

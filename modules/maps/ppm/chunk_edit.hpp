@@ -20,6 +20,7 @@ struct NewFace {
   std::uint8_t divisions = 1;
   FaceEvidence evidence;
   TexelView texels;
+  bool settled = false;
 };
 struct NewVertex {
   std::uint32_t id = 0;

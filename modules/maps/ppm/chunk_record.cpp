@@ -52,6 +52,7 @@ void save(RecordWriter& out, const Texels& texels) {
   out.add(texels.color);
   out.add(texels.color_variance);
   out.add(texels.evidence);
+  out.add(texels.settled);
 }
 
 void load(RecordReader& in, Texels& texels) {
@@ -60,6 +61,7 @@ void load(RecordReader& in, Texels& texels) {
   in.take(texels.color);
   in.take(texels.color_variance);
   in.take(texels.evidence);
+  in.take(texels.settled);
 }
 
 void save(RecordWriter& out, const PpmSettings& settings) {

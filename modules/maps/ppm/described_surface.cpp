@@ -35,8 +35,8 @@ TexturedFace textured_face(const PpmChunk& chunk, std::uint32_t f) {
           chunk.texels->view(geometry.first_texel[f], texel_count(n))};
 }
 
-DescribedSurface::DescribedSurface(std::span<const TexturedFace> faces)
-    : faces_(faces), aimed_(faces.size(), 0) {
+DescribedSurface::DescribedSurface(std::span<const TexturedFace> faces, Meeting meeting)
+    : faces_(faces), meeting_(meeting), aimed_(faces.size(), 0) {
   double extent = 0;
   plane_.reserve(faces.size());
   for (const auto& face : faces) {
@@ -97,7 +97,9 @@ void DescribedSurface::aim_at(const CastPlane& plane, std::uint32_t f, float fac
   };
   Target t{f, linear(face.u_axis), linear(face.v_axis), linear(face.normal), face.u_axis.dot(plane.normal),
            face.v_axis.dot(plane.normal), facing, 0};
-  t.slack = kInside + std::max({std::abs(t.u_slope), std::abs(t.v_slope), std::abs(t.u_slope + t.v_slope)}) *
+  t.slack = kInside;
+  if (meeting_ == Meeting::displaced)
+    t.slack += std::max({std::abs(t.u_slope), std::abs(t.v_slope), std::abs(t.u_slope + t.v_slope)}) *
                           face.farthest_mean / facing;
   target_.push_back(t);
 }
@@ -134,7 +136,7 @@ SurfaceHit DescribedSurface::meet(const Target& t, float a, float b) const {
     hit.texels = texel_triangle(face.divisions, on_face[0], on_face[1]);
     const float before = hit.offset;
     hit.offset = (interpolate(face.texels.mean, hit.texels) - height) / t.facing;
-    if (std::abs(hit.offset - before) < 1e-6f) break;
+    if (meeting_ == Meeting::seen || std::abs(hit.offset - before) < 1e-6f) break;
   }
   if (line[0] >= -kInside && line[1] >= -kInside && line[0] + line[1] <= 1 + kInside) return hit;
   const auto& [p, q, r] = face.corner;

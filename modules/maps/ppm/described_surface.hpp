@@ -34,11 +34,19 @@ struct CastPlane {
   Eigen::Vector3f origin, edge1, edge2, normal;
 };
 
-/// The surface that textured faces describe: each moved along its normal by its texel means, interpolated linearly.
-/// Finds where lines meet it. The faces must outlive it.
+/// What it means for a line to meet a described surface.
+enum class Meeting {
+  displaced,  ///< each face moved along its normal by its texel means; neighbours may gape or overlap at folds
+  /// As a view along the line meets it: the line meets the face, the surface stands off there by the texel's mean.
+  /// Neighbours leave neither gap nor overlap. It is what map update and prediction mean by a texel.
+  seen,
+};
+
+/// The surface that textured faces describe, means interpolated linearly between texels. Finds where lines meet it. The
+/// faces must outlive it.
 class DescribedSurface {
  public:
-  explicit DescribedSurface(std::span<const TexturedFace> faces);
+  explicit DescribedSurface(std::span<const TexturedFace> faces, Meeting meeting = Meeting::displaced);
 
   /// Makes ready for lines from within the triangle (0, 0), (1, 0), (0, 1) of a plane: the faces within `reach` of it (m),
   /// all where none is so near. Faces that look away from the plane's normal by more than 75 degrees are left out.
@@ -71,6 +79,7 @@ class DescribedSurface {
   void cells(const Eigen::Vector3f& low, const Eigen::Vector3f& high, Visit visit) const;
 
   std::span<const TexturedFace> faces_;
+  Meeting meeting_;
   std::vector<Plane> plane_;
   float cell_size_ = 1;  // m
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> grid_;

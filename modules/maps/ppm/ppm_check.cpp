@@ -46,7 +46,8 @@ void check_texels(std::size_t chunk, const Geometry& geometry, const Texels& tex
   std::size_t count = 0;
   for (auto n : geometry.divisions) count += texel_count(n);
   PPM_CHECK(
-      texels.mean.size() == count && texels.variance.size() == count && texels.evidence.size() == geometry.face.size(),
+      texels.mean.size() == count && texels.variance.size() == count && texels.evidence.size() == geometry.face.size() &&
+          texels.settled.size() == geometry.face.size(),
       "chunk {}: texels do not fit its faces", chunk);
   PPM_CHECK(texels.color.size() == channels * count && texels.color_variance.size() == (channels > 0 ? count : 0),
             "chunk {}: colours do not fit its texels", chunk);

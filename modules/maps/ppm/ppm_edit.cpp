@@ -16,6 +16,7 @@ struct StagedFace {
   std::array<std::uint32_t, 3> id;
   std::uint8_t divisions;
   FaceEvidence evidence;
+  bool settled;
   std::size_t first_texel;  // in Staged::texels
 };
 struct StagedMove {
@@ -90,7 +91,8 @@ class PpmEdit::Commit {
       if (chunk == ChunkTable<PpmChunk>::kNone)
         chunk = map_.table_.add(cell, {Cow<Geometry>::make(), Cow<Texels>::make()});
       staged_.chunks[chunk].added.push_back(
-          {f.id, f.divisions, f.evidence, staged_.texels.view(f.first_texel, texel_count(f.divisions))});
+          {f.id, f.divisions, f.evidence, staged_.texels.view(f.first_texel, texel_count(f.divisions)),
+           f.settled});
     }
   }
 
@@ -194,7 +196,7 @@ void PpmEdit::use_vertex(std::uint32_t id, const Eigen::Vector3f& position) {
 }
 
 void PpmEdit::add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, const TexelView& texels,
-                       FaceEvidence evidence) {
+                       FaceEvidence evidence, bool settled) {
   PPM_CHECK(divisions >= 1 && divisions <= map_->settings_.max_divisions, "{} divisions", divisions);
   const std::size_t count = texel_count(divisions);
   const auto channels = static_cast<std::size_t>(map_->settings_.color_channels);
@@ -203,7 +205,7 @@ void PpmEdit::add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t div
   PPM_CHECK(texels.color.size() == channels * count && texels.color_variance.size() == (channels > 0 ? count : 0),
             "{} values of colour for {} texels with {} channels", texels.color.size(), count, channels);
   for (auto id : ids) PPM_CHECK(staged_->vertex.contains(id), "vertex {} is not of this session", id);
-  staged_->faces.push_back({ids, divisions, evidence, staged_->texels.size()});
+  staged_->faces.push_back({ids, divisions, evidence, settled, staged_->texels.size()});
   staged_->texels.append(texels);
 }
 

@@ -14,7 +14,7 @@ namespace ppm {
 namespace {
 
 constexpr std::string_view kMagic = "PPMMAP\r\n";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 }  // namespace
 

@@ -77,6 +77,7 @@ void PpmMap::digest(Digest& digest) const {
     digest.add(texels.color);
     digest.add(texels.color_variance);
     digest.add(texels.evidence);
+    digest.add(texels.settled);
   }
 }
 

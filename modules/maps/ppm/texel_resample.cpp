@@ -51,8 +51,8 @@ std::uint16_t saturated(double votes) {
 
 }  // namespace
 
-TexelResampler::TexelResampler(std::span<const TexturedFace> old_faces, const PpmSettings& settings)
-    : old_(old_faces), surface_(old_faces), sizes_(settings) {
+TexelResampler::TexelResampler(std::span<const TexturedFace> old_faces, const PpmSettings& settings, Meeting meeting)
+    : old_(old_faces), surface_(old_faces, meeting), sizes_(settings) {
   PPM_CHECK(!old_faces.empty(), "new faces need old ones to take their texels from");
 }
 

@@ -61,7 +61,8 @@ struct NodeObservation {
 class TexelResampler {
  public:
   /// old_faces: not empty, with the map's channels; they must outlive it.
-  TexelResampler(std::span<const TexturedFace> old_faces, const PpmSettings& settings);
+  TexelResampler(std::span<const TexturedFace> old_faces, const PpmSettings& settings,
+                 Meeting meeting = Meeting::displaced);
 
   /// One new face, counter-clockwise, with as many texels as its area deserves. Its evidence has no votes yet.
   ResampledFace resample(const std::array<Eigen::Vector3f, 3>& corner, const ResampleTolerance& tolerance = {});
