@@ -198,7 +198,7 @@ Replacement::Result Replacement::take(const std::vector<Triangle>& proposed, con
       result.goes[it->second] = 0;
       continue;
     }
-    result.triangle.push_back(t);
+    result.triangle.push_back(key);  // in the order of its texels
     result.face.push_back(judge(key).face);
   }
   std::vector<ResampledFace*> faces;

@@ -107,12 +107,16 @@ void DescribedSurface::aim_at(const CastPlane& plane, std::uint32_t f, float fac
 SurfaceHit DescribedSurface::cast(float a, float b) const {
   SurfaceHit best;
   best.offset = best.miss = std::numeric_limits<float>::infinity();
+  float nearest = best.offset;
   for (const Target& t : target_) {
     const float base = -t.height.at(a, b) / t.facing;
     const float u = t.u.at(a, b) + base * t.u_slope, v = t.v.at(a, b) + base * t.v_slope;
     if (u < -t.slack || v < -t.slack || u + v > 1 + t.slack) continue;
     const SurfaceHit hit = meet(t, a, b);
-    if (hit.miss == 0 && std::abs(hit.offset) < std::abs(best.offset)) best = hit;
+    const float distance = std::abs(meeting_ == Meeting::seen ? base : hit.offset);
+    if (hit.miss > 0 || !(distance < nearest)) continue;
+    nearest = distance;
+    best = hit;
   }
   if (best.miss == 0 && !away_) return best;
   for (const Target& t : target_) {
