@@ -83,7 +83,8 @@ MapHandle MapSimplifier::edit(Context&, std::size_t, MapHandle handle, int) {
 }
 
 /// Each round leaves out at least one face more, so that it ends: with all of them out, if need be. After the first
-/// rounds, which find most of what cannot be, faults take their neighbours with them, so that it ends soon.
+/// rounds, which find most of what cannot be, faults take their neighbours with them, one ring more in each round, so
+/// that it ends soon.
 Replacement::Result MapSimplifier::simplify(const Region& region, const PpmSettings& map) const {
   constexpr int kExactRounds = 2;
   Replacement replacement(region, map, replacement_);
@@ -92,7 +93,7 @@ Replacement::Result MapSimplifier::simplify(const Region& region, const PpmSetti
     const auto proposed = decimate(active_part(region, stays, static_cast<float>(error_base_)));
     auto faults = replacement.faults(proposed, stays);
     if (faults.empty()) return replacement.take(proposed, stays);
-    if (round >= kExactRounds) faults = replacement.with_neighbours(faults);
+    for (int ring = kExactRounds; ring <= round; ++ring) faults = replacement.with_neighbours(faults);
     for (auto f : faults) stays[f] = 1;
   }
 }

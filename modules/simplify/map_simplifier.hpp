@@ -35,7 +35,7 @@ class MapSimplifier : public MapEditor {
 
   DueSettings due_;
   ReplacementSettings replacement_;
-  double error_base_ = 0.01;
+  double error_base_ = 0.003;
 };
 
 }  // namespace ppm

@@ -190,6 +190,26 @@ TEST_CASE("a face resampled from itself stays as it is") {
   CHECK(faces[0].evidence.excess == Approx(3e-5f));
 }
 
+TEST_CASE("a face resampled among neighbours that say otherwise at its edges stays as it is") {
+  Patch patch;
+  Rng rng(6, 0, 0, purpose_key("texels"));
+  PpmSettings settings;
+  grid(4, 0.2f, [](float x, float y) { return 0.02f * std::sin(20 * x) * std::cos(17 * y); }, [&](const Corners& c) {
+    const auto n = PpmMap(settings).divisions_for(c[0], c[1], c[2]);
+    patch.add(
+        c, n, [&](const Eigen::Vector3f&) { return static_cast<float>(0.004 * rng.normal()); }, always(2e-5f));
+  });
+  TexelResampler resampler(patch.view(), settings, Meeting::seen);
+  for (std::size_t f = 0; f < patch.faces.size(); ++f) {
+    const auto face = resampler.resample(patch.faces[f].corner);
+    REQUIRE(face.divisions == patch.faces[f].divisions);
+    REQUIRE(face.overlap.size() == 1);
+    CHECK(face.overlap[0].old_face == f);
+    for (std::size_t t = 0; t < face.texels.size(); ++t)
+      CHECK(face.texels.mean[t] == Approx(patch.texels[f].mean[t]).margin(2e-4));
+  }
+}
+
 TEST_CASE("a tilted plane described by many faces is described as well by two, whatever way they tilt") {
   Patch patch;
   auto plane = [](float x, float y) { return 0.1f * x - 0.05f * y + 0.01f; };

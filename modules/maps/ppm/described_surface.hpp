@@ -51,10 +51,10 @@ class DescribedSurface {
   /// Makes ready for lines from within the triangle (0, 0), (1, 0), (0, 1) of a plane: the faces within `reach` of it (m),
   /// all where none is so near. Faces that look away from the plane's normal by more than 75 degrees are left out.
   void aim(const CastPlane& plane, float reach);
-  /// Where the line through (a, b) of the plane along its normal meets the surface: of several places the nearest. Where
-  /// it meets none, as in the gap that opens between two faces at a fold, the nearest point beside the line
-  /// (SurfaceHit::miss), with the offset of its face's displaced plane. Where all faces look away, miss is infinite.
-  /// There must be a face.
+  /// Where the line through (a, b) of the plane along its normal meets the surface: of several places the nearest, or, as
+  /// seen, that of the nearest face. Where it meets none, as in the gap that opens between two faces at a fold, the
+  /// nearest point beside the line (SurfaceHit::miss), with the offset of its face's displaced plane. Where all faces
+  /// look away, miss is infinite. There must be a face.
   SurfaceHit cast(float a, float b) const;
 
  private:

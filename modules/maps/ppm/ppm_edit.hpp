@@ -27,8 +27,8 @@ class PpmEdit {
   /// Lets faces of this session use a vertex that the map has already.
   void use_vertex(std::uint32_t id, const Eigen::Vector3f& position);
   /// A new face over vertices of this session, counter-clockwise seen from free space; texels in the order of
-  /// texel_index, texel_count(divisions) of them, with the map's colour channels. evidence, settled: to start with. The caller
-  /// guarantees a sound edge (at most two faces, opposite winding); commit() checks it in debug builds.
+  /// texel_index, texel_count(divisions) of them, with the map's colour channels. evidence, settled: to start with. The
+  /// caller guarantees a sound edge (at most two faces, opposite winding); commit() checks it in debug builds.
   void add_face(const std::array<std::uint32_t, 3>& ids, std::uint8_t divisions, const TexelView& texels,
                 FaceEvidence evidence = {}, bool settled = false);
   void remove_face(std::uint32_t chunk, std::uint32_t face);

@@ -48,8 +48,8 @@ struct NodeObservation {
 
 /// Gives new faces the texels with which they describe the surface that old faces describe.
 ///
-/// Lines along a new face's normal are cast onto the old displaced surface from the face's nodes and from the centres of
-/// the triangles between them; each stands for a share of the area (three quarters of a triangle for its centre, the rest
+/// Lines along a new face's normal are cast onto the surface that the old ones describe (see Meeting) from the face's
+/// nodes and from the centres of the triangles between them; each stands for a share of the area (three quarters of a triangle for its centre, the rest
 /// for its corners: exact for quadratic functions).
 /// - Information, area over variance, is conserved: a node's is the mean of the old surface's 1 / variance, which is
 ///   interpolated between old texels, over the area that the node stands for. Summed over a face it is what the old
