@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Maps the kitchen with and without simplification, and rewrites simplify.md and its pictures.
+# Maps with and without simplification, and rewrites simplify.md and its picture.
 #   bash docs/results/simplify.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -9,46 +9,55 @@ page=docs/results/simplify.md
 mkdir -p "$out"
 trap 'rm -f "$page.part"' EXIT
 
-# NAME MODULE WHEN ARGUMENTS...: the kitchen's graph with that module as node `thin` (none: without it), and a report of its surface
+# NAME GRAPH MODULE WHEN ARGUMENTS...: runs that graph with the module as node `thin` (none: without it)
 run() {
-  local name=$1 module=$2 when=$3 graph=$out/$1.yaml; shift 3
-  sed -e '/name: thin,/d; /name: image,/d' configs/kitchen_mapping.yaml >"$graph"
+  local name=$1 source=$2 module=$3 when=$4 graph=$out/$1.yaml; shift 4
+  sed -e '/name: thin,/d; /name: image,/d; /name: export,/d' "configs/$source.yaml" >"$graph"
   [ "$module" = none ] || sed -i "s|^  - {name: path,|  - {name: thin, module: $module, when: {$when}}\n&|" "$graph"
   sed -i 's|module: sink.mesh_ply,|& params: {surface: base},|' "$graph"
-  echo "  - {name: surface, module: sink.surface_report, in: {frame: camera.frame}, when: {at_end: true}}" >>"$graph"
   echo "ppm run $graph $*" >&2
   "$ppm" run "$graph" --threads 1 --out "$out/$name" --force "$@" >"$out/$name.log" 2>&1
 }
 row() {  # LABEL NAME
-  jq -r --arg label "$1" --slurpfile s "$out/$2/surface.json" '
+  jq -r --arg text "$1" --slurpfile s "$out/$2/surface.json" '
     def r(n): . * n | round / n;
-    "| \($label) | \(.holdout.coverage | r(10000)) | \(.holdout.median_mm | r(100)) | " +
+    "| \($text) | \(.holdout.coverage | r(10000)) | \(.holdout.median_mm | r(100)) | " +
     "\(.holdout.within_1cm | r(1000)) / \(.holdout.within_2cm | r(1000)) / \(.holdout.within_5cm | r(1000)) | " +
     "\(.holdout.mean_trunc20cm_mm | r(100)) | \(.holdout.log_density | r(100)) | \($s[0].second_layers | r(10000)) | " +
     "\($s[0].boundary_edges_per_m2 | round) | \(.map.faces) / \(.map.texels) | \(.map.bytes / 1048576 | r(100)) | " +
     "\(if .nodes.thin then .nodes.thin.ms_mean * .nodes.thin.runs / .frames | r(100) else "-" end) |"' "$out/$2/run.json"
 }
-run plain none ""
-run meshopt simplify.meshoptimizer "every: 250"
-run openmesh simplify.openmesh_qem "every: 250"
-run often simplify.meshoptimizer "every: 50"
-for e in 2 8 16; do run "error_$e" simplify.meshoptimizer "every: 250" --set "thin.error=$e mm"; done
-run texel_4 simplify.meshoptimizer "every: 250" --set "init.texel_size=4 cm"
+run plain kitchen_mapping none ""
+run meshopt kitchen_mapping simplify.meshoptimizer "every: 100"
+run openmesh kitchen_mapping simplify.openmesh_qem "every: 100"
+run often kitchen_mapping simplify.meshoptimizer "every: 25"
+run error_2 kitchen_mapping simplify.meshoptimizer "every: 100" --set "thin.error=2 mm" --set thin.sigmas=0
+run error_8 kitchen_mapping simplify.meshoptimizer "every: 100" --set "thin.error=8 mm" --set thin.sigmas=1
+run base_10 kitchen_mapping simplify.meshoptimizer "every: 100" --set "thin.error_base=10 mm"
+for graph in room icl; do
+  run "${graph}_plain" "${graph}_mapping" none ""
+  run "${graph}_meshopt" "${graph}_mapping" simplify.meshoptimizer "every: 50"
+done
 
 {
   echo "# Fewer faces for the same surface"
   echo
-  echo "Written by \`bash docs/results/simplify.sh\`: \`configs/kitchen_mapping.yaml\` (500 images mapped, 100 held out, one thread), with one line"
-  echo "\`{name: thin, module: ..., when: {every: N}}\` after the update. How it works: [simplify](../simplify.md). Time: of the node, over all frames."
+  echo "Written by \`bash docs/results/simplify.sh\`: graphs of \`configs\` (every tenth image held out, one thread) with and without the line"
+  echo "\`{name: thin, module: simplify.meshoptimizer, when: {every: N}}\` after the update. How it works: [simplify](../simplify.md). Time: of the node, over all frames."
   echo
   echo "| run | coverage | median, mm | within 1 / 2 / 5 cm | truncated mean, mm | log density | second layers | open edges / m2 | faces / texels | MiB | ms a frame |"
   echo "|---|---|---|---|---|---|---|---|---|---|---|"
-  row "nothing simplified" plain
-  row "\`simplify.meshoptimizer\`, every 250" meshopt
-  row "\`simplify.openmesh_qem\`, every 250" openmesh
-  row "meshoptimizer, every 50" often
-  for e in 2 8 16; do row "meshoptimizer, every 250, \`error: $e mm\`" "error_$e"; done
-  row "meshoptimizer, every 250, \`texel_size: 4 cm\`" texel_4
+  row "\`kitchen_mapping\`, nothing simplified" plain
+  row "\`simplify.meshoptimizer\`, every 100" meshopt
+  row "\`simplify.openmesh_qem\`, every 100" openmesh
+  row "meshoptimizer, every 25" often
+  row "meshoptimizer, every 100, \`error: 2 mm, sigmas: 0\`" error_2
+  row "meshoptimizer, every 100, \`error: 8 mm, sigmas: 1\`" error_8
+  row "meshoptimizer, every 100, \`error_base: 10 mm\`" base_10
+  for graph in room icl; do
+    row "\`${graph}_mapping\`, nothing simplified" "${graph}_plain"
+    row "\`simplify.meshoptimizer\`, every 50" "${graph}_meshopt"
+  done
   echo
   echo "![Before and after](../images/simplify_wire.png)"
 } >"$page.part"

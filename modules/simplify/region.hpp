@@ -14,7 +14,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 /// Which faces of a map are to be simplified.
 struct DueSettings {
-  int hits_least = 20;       ///< only faces that were measured so often take part
+  int hits_least = 10;       ///< only faces that were measured so often take part
   float share_least = 0.2f;  ///< a chunk is due when of its faces so many may take part and never did
 };
 

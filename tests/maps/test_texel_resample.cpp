@@ -182,7 +182,7 @@ TEST_CASE("a face resampled from itself stays as it is") {
   const auto faces = resample_faces(patch.view(), std::vector{c}, settings);
   REQUIRE(faces[0].divisions == n);
   for (std::size_t t = 0; t < texel_count(n); ++t) {
-    CHECK(faces[0].texels.mean[t] == Approx(patch.texels[0].mean[t]).margin(1e-6));
+    CHECK(faces[0].texels.mean[t] == Approx(patch.texels[0].mean[t]).margin(3e-6));
     CHECK(faces[0].texels.variance[t] == Approx(2e-5f));
   }
   CHECK(faces[0].evidence.hits == 100);
@@ -206,7 +206,7 @@ TEST_CASE("a face resampled among neighbours that say otherwise at its edges sta
     REQUIRE(face.overlap.size() == 1);
     CHECK(face.overlap[0].old_face == f);
     for (std::size_t t = 0; t < face.texels.size(); ++t)
-      CHECK(face.texels.mean[t] == Approx(patch.texels[f].mean[t]).margin(2e-4));
+      CHECK(face.texels.mean[t] == Approx(patch.texels[f].mean[t]).margin(5e-6));
   }
 }
 
@@ -343,5 +343,5 @@ TEST_CASE("a face that stands across the old surface, or beside it, says so") {
   const Corners upright{Eigen::Vector3f(0.1f, 0.1f, 0), Eigen::Vector3f(0.2f, 0.1f, 0), Eigen::Vector3f(0.1f, 0.1f, 0.1f)};
   CHECK(std::isinf(resampler.resample(upright).error.miss));
   const Corners over{Eigen::Vector3f(0.35f, 0.1f, 0), Eigen::Vector3f(0.45f, 0.1f, 0), Eigen::Vector3f(0.35f, 0.2f, 0)};
-  CHECK(resampler.resample(over).error.miss == Approx(0.05f));
+  CHECK(resampler.resample(over).error.miss == Approx(0.05f).margin(1e-4));
 }

@@ -9,7 +9,7 @@ namespace ppm {
 namespace {
 
 constexpr float kReachTexels = 3;  // lines look for the old surface so many texel sizes from the new face
-constexpr float kInwards = 2e-3f;  // of the way to the centroid: how far lines start beside the nodes
+constexpr float kInwards = 1e-3f;  // of the way to the centroid: how far lines start beside the nodes
 constexpr int kFitSteps = 6;
 
 float read(std::span<const float> values, const TexelTriangle& t) {
@@ -106,7 +106,7 @@ void TexelResampler::take_samples(const std::array<Eigen::Vector3f, 3>& corner, 
 void TexelResampler::take_sample(float a, float b, std::uint32_t n, float area) {
   // On a border two old faces may meet: just inside there is one.
   const float inner_a = a + kInwards * (1.0f / 3 - a), inner_b = b + kInwards * (1.0f / 3 - b);
-  Sample s{texel_triangle(n, a, b), surface_.cast(inner_a, inner_b), area, 0, 0};
+  Sample s{texel_triangle(n, inner_a, inner_b), surface_.cast(inner_a, inner_b), area, 0, 0};
   const TexturedFace& old = old_[s.hit.face];
   const float variance = read(old.texels.variance, s.hit.texels);
   for (int k = 0; k < 3; ++k) s.information += s.hit.texels.weight[k] / old.texels.variance[s.hit.texels.texel[k]];
