@@ -87,3 +87,4 @@ for axis, path, title in zip(axes, sys.argv[2:], ("as mapped", "simplified")):
     axis.set(title=f"{title}: {len(faces)} faces", xlim=(-1.2, 1.2), ylim=(1.0, -1.0), aspect="equal", xticks=[], yticks=[])
 figure.savefig(sys.argv[1], dpi=100)
 PYTHON
+convert docs/images/simplify_wire.png -resize 70% -colorspace Gray -colors 8 docs/images/simplify_wire.png
