@@ -77,5 +77,5 @@ TEST_CASE("sr4000_still.yaml maps a place from four images") {
 TEST_CASE("icl_slam.yaml runs a few frames") {
   const auto data = data_path("icl_kt3");
   if (!data) return;
-  runs_as_it_did({"icl_slam.yaml", {"--set", "camera.path=" + data->string(), "--set", "init.particles=20"}, 0.03, 0.85, 25});
+  runs_as_it_did({"icl_slam.yaml", {"--set", "camera.path=" + data->string(), "--set", "init.particles=100"}, 0.03, 0.85, 25});
 }
