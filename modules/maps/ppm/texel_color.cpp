@@ -43,8 +43,7 @@ class ColorGatherer {
     const auto nearest = view_.at(static_cast<int>(image.x() + 0.5f), static_cast<int>(image.y() + 0.5f));
     if (!view_.measured(nearest)) return;
     const float cosine = std::max(UpdateView::facing(normal_, node), settings_.gate.least_cosine);
-    const float limit =
-        settings_.gate_sigmas * settings_.gate.spread(view_.sigma[nearest], cosine, variance + excess_);
+    const float limit = settings_.gate_sigmas * settings_.gate.spread(view_.sigma[nearest], cosine, variance + excess_);
     ColorValue seen{};
     if (!interpolate(image.x(), image.y(), offset_ + mean, limit, seen)) return;
     const float pixel = image.z() * view_.inv_fx;
@@ -156,16 +155,13 @@ namespace {
 
 void gather_map_face(const UpdateView& view, const ColorView& colors, const TexelSettings& settings,
                      const Geometry& geometry, std::uint32_t f, Texels& texels) {
-  const auto& [i, j, k] = geometry.face[f];
   const std::size_t n = texels.channels(), first = geometry.first_texel[f], count = texel_count(geometry.divisions[f]);
-  gather_color(
-      view, colors, settings,
-      {view.relative(geometry.position[i]), view.relative(geometry.position[j]), view.relative(geometry.position[k])},
-      geometry.divisions[f], texels.evidence[f].added_variance(),
-      {{&texels.mean[first], count},
-       {&texels.variance[first], count},
-       {&texels.color[n * first], n * count},
-       {&texels.color_variance[first], count}});
+  gather_color(view, colors, settings, corners_in(view, geometry, f), geometry.divisions[f],
+               texels.evidence[f].added_variance(),
+               {{&texels.mean[first], count},
+                {&texels.variance[first], count},
+                {&texels.color[n * first], n * count},
+                {&texels.color_variance[first], count}});
 }
 
 }  // namespace
@@ -187,15 +183,8 @@ void update_color(const UpdateView& view, const ColorView& colors, const std::ve
       if (classes[p] & kOwnHit) scatter_color(view, colors, settings, p, edit);
     return;
   }
-  std::vector<Texels*> texels(edit.map().table().size(), nullptr);
-  for (const auto& f : faces)
-    if (!texels[f.chunk]) texels[f.chunk] = &edit.texels(f.chunk);
-  constexpr std::size_t kTurn = 64;  // faces
-  workers.for_each((faces.size() + kTurn - 1) / kTurn, [&](std::size_t turn, int) {
-    for (std::size_t i = turn * kTurn; i < std::min((turn + 1) * kTurn, faces.size()); ++i) {
-      const auto [chunk, face] = faces[i];
-      gather_map_face(view, colors, settings, *edit.map().table()[chunk].geometry, face, *texels[chunk]);
-    }
+  for_each_face(faces, workers, edit, [&](const Geometry& geometry, std::uint32_t face, Texels& texels) {
+    gather_map_face(view, colors, settings, geometry, face, texels);
   });
 }
 

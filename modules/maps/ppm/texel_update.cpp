@@ -75,14 +75,10 @@ void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::s
 /// Gathers for a face of the map.
 void gather_map_face(const UpdateView& view, const TexelSettings& settings, const Geometry& geometry, std::uint32_t f,
                      Texels& texels) {
-  const auto& [i, j, k] = geometry.face[f];
   const auto first = geometry.first_texel[f];
   const auto count = texel_count(geometry.divisions[f]);
-  gather_face(
-      view, settings,
-      {view.relative(geometry.position[i]), view.relative(geometry.position[j]), view.relative(geometry.position[k])},
-      geometry.divisions[f], texels.evidence[f].added_variance(), {&texels.mean[first], count},
-      {&texels.variance[first], count});
+  gather_face(view, settings, corners_in(view, geometry, f), geometry.divisions[f], texels.evidence[f].added_variance(),
+              {&texels.mean[first], count}, {&texels.variance[first], count});
 }
 
 }  // namespace
@@ -125,13 +121,14 @@ void start_texels(const UpdateView& view, const TexelSettings& settings, const s
   std::fill(variance.begin(), variance.end(), variance_along_normal(view.sigma[view.at(x, y)], cosine, lateral));
 }
 
-void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<FaceRef>& faces,
-                   const TexelSettings& settings, const Workers& workers, PpmEdit& edit) {
-  if (settings.form == TexelForm::scatter) {
-    for (std::size_t p = 0; p < classes.size(); ++p)
-      if (classes[p] & kOwnHit) scatter_pixel(view, settings, p, edit);
-    return;
-  }
+std::array<Eigen::Vector3f, 3> corners_in(const UpdateView& view, const Geometry& geometry, std::uint32_t face) {
+  const auto& [i, j, k] = geometry.face[face];
+  return {view.relative(geometry.position[i]), view.relative(geometry.position[j]),
+          view.relative(geometry.position[k])};
+}
+
+void for_each_face(const std::vector<FaceRef>& faces, const Workers& workers, PpmEdit& edit,
+                   const std::function<void(const Geometry&, std::uint32_t, Texels&)>& body) {
   std::vector<Texels*> texels(edit.map().table().size(), nullptr);
   for (const auto& f : faces)
     if (!texels[f.chunk]) texels[f.chunk] = &edit.texels(f.chunk);
@@ -139,8 +136,20 @@ void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& clas
   workers.for_each((faces.size() + kTurn - 1) / kTurn, [&](std::size_t turn, int) {
     for (std::size_t i = turn * kTurn; i < std::min((turn + 1) * kTurn, faces.size()); ++i) {
       const auto [chunk, face] = faces[i];
-      gather_map_face(view, settings, *edit.map().table()[chunk].geometry, face, *texels[chunk]);
+      body(*edit.map().table()[chunk].geometry, face, *texels[chunk]);
     }
+  });
+}
+
+void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<FaceRef>& faces,
+                   const TexelSettings& settings, const Workers& workers, PpmEdit& edit) {
+  if (settings.form == TexelForm::scatter) {
+    for (std::size_t p = 0; p < classes.size(); ++p)
+      if (classes[p] & kOwnHit) scatter_pixel(view, settings, p, edit);
+    return;
+  }
+  for_each_face(faces, workers, edit, [&](const Geometry& geometry, std::uint32_t face, Texels& texels) {
+    gather_map_face(view, settings, geometry, face, texels);
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "modules/maps/ppm/face_votes.hpp"
@@ -56,6 +57,14 @@ void gather_face(const UpdateView& view, const TexelSettings& settings, const st
 void start_texels(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
                   std::uint32_t divisions, float prior_variance, float excess, std::span<float> mean,
                   std::span<float> variance);
+
+/// The corners of a face, relative to the view's centre.
+std::array<Eigen::Vector3f, 3> corners_in(const UpdateView& view, const Geometry& geometry, std::uint32_t face);
+
+/// Calls body(geometry, face, texels) once for each face of the map, several faces to a worker's turn; texels: of the
+/// face's chunk, for writing. faces: each once.
+void for_each_face(const std::vector<FaceRef>& faces, const Workers& workers, PpmEdit& edit,
+                   const std::function<void(const Geometry&, std::uint32_t face, Texels&)>& body);
 
 /// Updates the texels of the faces in view. `faces`: those that rays met (see tally_faces), without the removed ones.
 /// The scatter form uses the pixels of class kOwnHit.
