@@ -142,7 +142,7 @@ class NewModule final : public Weighting {
 
  protected:
   ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const Prediction&) const override {
+                  const ViewSamples&) const override {
     ViewScore s;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       const double off = residuals.residual[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/graph/error_context.hpp"
+#include "framework/graph/facet_state.hpp"
 #include "framework/graph/particle_loop.hpp"
 
 namespace ppm {
@@ -31,6 +32,9 @@ void Executor::open_nodes() {
   for (const Node& node : graph_.nodes_) {
     contexts_.push_back(context_);
     contexts_.back().enter(node.name);
+    const Facets facets = facets_of(*node.module);
+    const auto named = [](const auto& words) { return std::ranges::find(words, "prediction") != words.end(); };
+    prediction_use_.push_back({named(facets.needs), named(facets.gives) || named(facets.drops)});
   }
   for (std::size_t i = 0; i < contexts_.size(); ++i) {
     const Node& node = graph_.nodes_[i];
@@ -56,7 +60,7 @@ bool Executor::tick_frame(std::int64_t frame) {
       pass_through(node);
       ++i;
     } else if (dynamic_cast<ParticleModule*>(node.module.get())) {
-      i = tick_loop(i, runs);
+      i = tick_loop(i, runs, frame);
     } else {
       tick_node(i);
       if (contexts_[i].ended_) return false;
@@ -72,7 +76,7 @@ void Executor::tick_at_end(std::int64_t frame) {
   for (std::size_t i = 0; i < graph_.nodes_.size();) {
     const Node& node = graph_.nodes_[i];
     if (runs(node) && dynamic_cast<ParticleModule*>(node.module.get())) {
-      i = tick_loop(i, runs);
+      i = tick_loop(i, runs, {});
     } else {
       if (runs(node)) tick_node(i);
       ++i;
@@ -95,7 +99,8 @@ void Executor::tick_node(std::size_t i) {
   }
 }
 
-std::size_t Executor::tick_loop(std::size_t first, const std::function<bool(const Node&)>& runs) {
+std::size_t Executor::tick_loop(std::size_t first, const std::function<bool(const Node&)>& runs,
+                                std::optional<std::int64_t> frame) {
   ParticleLoop loop;
   std::size_t next = first;
   for (; next < graph_.nodes_.size(); ++next) {
@@ -114,9 +119,23 @@ std::size_t Executor::tick_loop(std::size_t first, const std::function<bool(cons
       break;
     }
   }
-  loop.run();
+  loop.run(frame && !prediction_is_read(next, *frame) ? graph_.belief_.get() : nullptr);
   for (const auto& member : loop.members()) summary_.nodes[member.node->name].ms.push_back(member.ms);
   return next;
+}
+
+bool Executor::prediction_is_read(std::size_t next, std::int64_t frame) const {
+  constexpr std::int64_t kLook = 2;  // frames: what is not decided by then is kept
+  for (std::size_t i = 0; i < prediction_use_.size(); ++i)
+    if (prediction_use_[i].reads && graph_.nodes_[i].gate.at_end) return true;
+  for (auto f = frame; f < frame + kLook; ++f, next = 0) {
+    for (std::size_t i = next; i < prediction_use_.size(); ++i) {
+      if (!graph_.nodes_[i].gate.open(f)) continue;
+      if (prediction_use_[i].reads) return true;
+      if (prediction_use_[i].ends) return false;
+    }
+  }
+  return true;
 }
 
 bool Executor::has_output(const Node& node) {

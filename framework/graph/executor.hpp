@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,7 +57,11 @@ class Executor {
   void tick_at_end(std::int64_t frame);
   void close_nodes();
   void tick_node(std::size_t i);
-  std::size_t tick_loop(std::size_t first, const std::function<bool(const Node&)>& runs);
+  /// Returns the node after the loop. frame: of the loop, or none at the end.
+  std::size_t tick_loop(std::size_t first, const std::function<bool(const Node&)>& runs,
+                        std::optional<std::int64_t> frame);
+  /// Whether a prediction that is there before node `next` of this frame may be read before another one is made.
+  bool prediction_is_read(std::size_t next, std::int64_t frame) const;
   static bool has_output(const Node& node);
   /// Empties the outputs, so that a module that forgets to set one is found out; gives what was there.
   static std::vector<std::pair<PortBase*, std::shared_ptr<const void>>> take_outputs(const Node& node);
@@ -70,6 +75,10 @@ class Executor {
 
   Graph& graph_;
   Context& context_;
+  struct PredictionUse {
+    bool reads = false, ends = false;  // needs the facet; gives it anew or drops it
+  };
+  std::vector<PredictionUse> prediction_use_;  // by node
   std::vector<Context> contexts_;  // one a node, copies of context_: nodes of one loop run at the same time
   RunSummary summary_;
   double wall_before_s_ = 0;  // of the parts of the run before it went on

@@ -28,7 +28,7 @@ void ParticleLoop::tick(std::size_t particle, int worker, std::vector<double>& m
   }
 }
 
-void ParticleLoop::run() {
+void ParticleLoop::run(ParticleSet* release) {
   auto serial = [&](Member& m, void (ParticleModule::*hook)(Context&)) {
     Stopwatch watch;
     in_node(
@@ -42,8 +42,10 @@ void ParticleLoop::run() {
   spent.resize(workers.threads());
   for (auto& ms : spent) ms.resize(members_.size());
   Stopwatch watch;
-  workers.for_each(members_.front().module->particles().size(),
-                   [&](std::size_t particle, int worker) { tick(particle, worker, spent[worker]); });
+  workers.for_each(members_.front().module->particles().size(), [&](std::size_t particle, int worker) {
+    tick(particle, worker, spent[worker]);
+    if (release) release->prediction[particle].reset();
+  });
   const double wall = watch.ms();
 
   std::vector<double> sum(members_.size());

@@ -20,7 +20,9 @@ class ParticleLoop {
   }
   /// True when a node above in this loop makes an input of `node`: the input is there only after the loop.
   bool feeds(const Node& node) const;
-  void run();
+  /// release: nothing after the loop reads what it predicted; each particle lets go of its prediction after its ticks,
+  /// so that the next one's is made in the same memory, which is in the core's cache.
+  void run(ParticleSet* release = nullptr);
   const std::vector<Member>& members() const { return members_; }
 
  private:

@@ -4,6 +4,18 @@
 
 namespace ppm {
 
+namespace {
+
+Facets with_predictions_dropped(Facets facets) {
+  facets.drops.push_back("prediction");
+  return facets;
+}
+
+}  // namespace
+
+MapEditor::MapEditor(Facets facets, EditReads reads)
+    : belief(this, with_predictions_dropped(std::move(facets))), reads_(reads) {}
+
 void MapEditor::tick(Context& context) {
   before(context);
   auto& particles = *belief;
@@ -21,6 +33,7 @@ void MapEditor::tick(Context& context) {
     PPM_CHECK(map, "the edit of particle {} gave no map", leaders[k]);
   });
   for (std::size_t i = 0; i < leader.size(); ++i) particles.map[i] = particles.map[leader[i]];
+  particles.prediction.assign(particles.size(), nullptr);
 }
 
 }  // namespace ppm

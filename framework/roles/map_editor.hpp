@@ -14,7 +14,7 @@ enum class EditReads {
 
 /// Base of modules that change maps as a pure function of what they read: particles that agree in all of it (copies of
 /// one ancestor after resampling) are computed once, by the lowest of them, and share the result. Draws no random
-/// numbers.
+/// numbers. Predictions end with the edit: they were of the maps before it.
 class MapEditor : public Module {
  public:
   InOut<Belief> belief;
@@ -23,14 +23,15 @@ class MapEditor : public Module {
   virtual void before(Context&) {}
   /// The map of particle i after the edit. Reads no other particle's data. May return the map it was given (no change).
   /// `map` is the particle's handle, moved in, while the belief's map column is empty: where no other particle has the
-  /// map (and no sink keeps a snapshot), it is the only handle and its memory may be reused. Called from any worker.
+  /// map (and no sink keeps a snapshot), it is the only handle and its memory may be reused: a deferred prediction is to
+  /// be completed before. Called from any worker.
   virtual MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) = 0;
 
   void tick(Context& context) final;
 
  protected:
-  explicit MapEditor(Facets facets, EditReads reads = EditReads::view)
-      : belief(this, std::move(facets)), reads_(reads) {}
+  /// facets: beside that predictions are dropped.
+  explicit MapEditor(Facets facets, EditReads reads = EditReads::view);
 
  private:
   EditReads reads_;

@@ -16,6 +16,19 @@ ViewPredictor::ViewPredictor(const std::string& map_facet) : belief(this, {{map_
   params_.add("stride", stride_).range(1, 64).doc("Predicts each n-th pixel of each n-th row of the frame.");
 }
 
+std::shared_ptr<DeferredView> ViewPredictor::defer(const Map&, const Prediction&) const {
+  return nullptr;
+}
+
+void ViewPredictor::predict_all(const Map& map, Prediction& out, int worker) const {
+  const Rows rows = all_rows(out.camera);
+  out.deferred = defer(map, out);
+  predict(map, rows, out, worker);
+  if (!out.deferred) return;
+  out.deferred->fill(out, rows, out);
+  out.deferred.reset();
+}
+
 void ViewPredictor::before(Context& context) {
   auto& particles = *belief;
   std::vector<const Map*> maps;
@@ -60,13 +73,17 @@ void ViewPredictor::tick(Context&, std::size_t particle, int worker) {
   auto& prediction = belief->prediction[particle];
   if (prediction) return;
   auto view = blank_view(particle);
-  predict_all(*belief->map[particle], *view, worker);
+  predict(*belief->map[particle], all_rows(view->camera), *view, worker);
   prediction = std::move(view);
 }
 
 std::shared_ptr<Prediction> ViewPredictor::blank_view(std::size_t particle) {
   auto out = pool_.take();
-  out->reset(frame->camera, stride_, belief->pose[particle], belief->map[particle]->color_channels());
+  const Map& map = *belief->map[particle];
+  out->reset_deferred(frame->camera, stride_, belief->pose[particle], map.color_channels());
+  auto deferred = defer(map, *out);
+  if (!deferred) out->reset(frame->camera, stride_, belief->pose[particle], map.color_channels());
+  out->deferred = std::move(deferred);
   return out;
 }
 

@@ -19,12 +19,14 @@ class ViewPredictor : public ParticleModule {
   /// Work shared by all views of one map before they are predicted (acceleration structures). The maps are distinct, in
   /// the order of the first particle that has each. Called from one thread.
   virtual void prepare(const std::vector<const Map*>& maps, const Workers& workers) = 0;
-  /// Predicts some rows of the view of `map` for out.camera at out.T_map_camera; `out` was reset to misses. Called from
-  /// any worker, for other rows of the same view at the same time.
+  /// The back-end's own view, to be filled by predict(), or null where it fills the arrays of the Prediction. out: has
+  /// camera, pose and colour channels. Called from any worker.
+  virtual std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const;
+  /// Predicts some rows of the view of `map` for out.camera at out.T_map_camera; `out` was reset to misses, or holds
+  /// what defer() gave. Called from any worker, for other rows of the same view at the same time.
   virtual void predict(const Map& map, const Rows& rows, Prediction& out, int worker) const = 0;
-  void predict_all(const Map& map, Prediction& out, int worker) const {
-    predict(map, all_rows(out.camera), out, worker);
-  }
+  /// Predicts a whole view with its arrays filled. out: reset to misses.
+  void predict_all(const Map& map, Prediction& out, int worker) const;
 
   void before(Context& context) override;
   using ParticleModule::tick;

@@ -30,6 +30,7 @@ Weighting::Weighting(int pixels) : belief(this, {{"prediction"}, {}, {}}), pixel
 
 void Weighting::before(Context& context) {
   measured_made_ = false;
+  expected_.resize(context.threads());
   residuals_.resize(context.threads());
   scores_.assign(belief->size(), {});
   if (phase_ == Phase::random) {
@@ -57,8 +58,11 @@ const MeasuredPixels& Weighting::measured(const Prediction& prediction) {
 void Weighting::tick(Context&, std::size_t particle, int worker) {
   const Prediction& prediction = *belief->prediction[particle];
   const MeasuredPixels& pixels = measured(prediction);
-  residuals_[worker].compute(pixels, prediction);
-  scores_[particle] = score(pixels, residuals_[worker], prediction);
+  ViewSamples& expected = expected_[worker];
+  expected.resize(pixels.size(), uses_color() ? prediction.color_channels : 0);
+  prediction.sample(pixels.pixel, expected);
+  residuals_[worker].compute(pixels, expected);
+  scores_[particle] = score(pixels, residuals_[worker], expected);
 }
 
 void Weighting::after(Context& context) {

@@ -46,10 +46,11 @@ class Weighting : public ParticleModule {
  protected:
   /// pixels: default of the parameter of that name.
   explicit Weighting(int pixels);
-  /// The likelihood of the measured pixels. prediction: the particle's, which the residuals come from. Called from any
-  /// worker; sums in the order of the pixels.
+  /// The likelihood of the measured pixels. expected: what the particle's view shows there, which the residuals come
+  /// from, with colour where uses_color(). Called from any worker; sums in the order of the pixels.
   virtual ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                          const Prediction& prediction) const = 0;
+                          const ViewSamples& expected) const = 0;
+  virtual bool uses_color() const { return false; }
 
   double jump_m_ = 0;  ///< see PixelGrid; for likelihoods that leave jumps out
 
@@ -62,6 +63,7 @@ class Weighting : public ParticleModule {
   std::mutex mutex_;  // guards measured_: made by the first tick of a frame, when the prediction's stride is known
   bool measured_made_ = false;
   MeasuredPixels measured_;
+  PerWorker<ViewSamples> expected_;
   PerWorker<RangeResiduals> residuals_;
   std::vector<ViewScore> scores_;  // of this frame's particles, from tick() to after()
   bool warned_ = false;

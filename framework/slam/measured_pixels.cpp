@@ -46,22 +46,13 @@ MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int 
   return out;
 }
 
-void RangeResiduals::compute(const MeasuredPixels& measured, const Prediction& prediction) {
+void RangeResiduals::compute(const MeasuredPixels& measured, const ViewSamples& expected) {
   const std::size_t n = measured.size();
   residual.resize(n);
-  map_variance.resize(n);
-  cosine.resize(n);
-  const Eigen::Matrix3f R = prediction.T_map_camera.linear().cast<float>();
-  constexpr auto least = static_cast<float>(Prediction::kMinCosine);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t p = measured.pixel[i];
-    const Eigen::Vector3f normal(&prediction.normal[3 * p]), direction(&measured.direction[3 * i]);
-    const float c = std::max(std::abs(normal.dot(R * direction)), least);
-    const bool hit = prediction.hit(p);
-    residual[i] = hit ? measured.range[i] - (prediction.range[p] - prediction.mean[p] / c) : Prediction::kMiss;
-    map_variance[i] = prediction.variance[p] / (c * c);
-    cosine[i] = hit ? c : 1.f;
-  }
+  map_variance = expected.variance;
+  cosine = expected.cosine;
+  for (std::size_t i = 0; i < n; ++i)
+    residual[i] = expected.range[i] == Prediction::kMiss ? Prediction::kMiss : measured.range[i] - expected.range[i];
 }
 
 }  // namespace ppm

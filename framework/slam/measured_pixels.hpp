@@ -30,13 +30,14 @@ struct MeasuredPixels {
 /// predicted: camera of the Prediction, the frame's decimated by `stride`.
 MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int stride, const PixelGrid& grid);
 
-/// Measured against predicted ranges, one entry a measured pixel. Kept between calls for its memory.
+/// Measured against predicted ranges, one entry a measured pixel. Kept between calls for its memory. expected: of the
+/// measured pixels.
 struct RangeResiduals {
   std::vector<float>
       residual;  ///< m, measured minus expected range of the described surface; kMiss where the map shows nothing
   std::vector<float> map_variance;  ///< m^2 of the expected range, from the map alone; 0 at a miss
   std::vector<float> cosine;        ///< |normal . direction|, at least Prediction::kMinCosine; 1 at a miss
-  void compute(const MeasuredPixels& measured, const Prediction& prediction);
+  void compute(const MeasuredPixels& measured, const ViewSamples& expected);
 };
 
 }  // namespace ppm

@@ -2,14 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "framework/core/error.hpp"
 
 namespace ppm {
+
+void ViewSamples::resize(std::size_t pixels, int channels) {
+  range.resize(pixels);
+  variance.resize(pixels);
+  cosine.resize(pixels);
+  color_channels = channels;
+  color.resize(static_cast<std::size_t>(channels) * pixels);
+  color_variance.resize(channels > 0 ? pixels : 0);
+}
 
 void Prediction::reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_, int channels) {
   camera = frame_camera.decimated(stride_);
   stride = stride_;
   T_map_camera = T_map_camera_;
+  deferred.reset();
   const auto n = static_cast<std::size_t>(camera.pixels());
   range.assign(n, kMiss);
   mean.assign(n, 0.0f);
@@ -21,6 +32,40 @@ void Prediction::reset(const Camera& frame_camera, int stride_, const Pose& T_ma
   color_channels = channels;
   color.assign(static_cast<std::size_t>(channels) * n, 0.0f);
   color_variance.assign(channels > 0 ? n : 0, 0.0f);
+}
+
+void Prediction::reset_deferred(const Camera& frame_camera, int stride_, const Pose& T_map_camera_, int channels) {
+  camera = frame_camera.decimated(stride_);
+  stride = stride_;
+  T_map_camera = T_map_camera_;
+  deferred.reset();
+  for (auto* array : {&range, &mean, &variance, &normal, &color, &color_variance, &bary}) array->clear();
+  chunk.clear();
+  face.clear();
+  color_channels = channels;
+}
+
+void Prediction::sample(std::span<const std::uint32_t> pixels, ViewSamples& out) const {
+  PPM_CHECK(out.size() == pixels.size(), "{} samples of {} pixels", out.size(), pixels.size());
+  if (deferred) return deferred->sample(*this, pixels, out);
+  const auto channels = static_cast<std::size_t>(out.color_channels);
+  const Eigen::Matrix3f R = T_map_camera.linear().cast<float>();
+  const auto cols = static_cast<std::uint32_t>(camera.cols);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::size_t p = pixels[i];
+    if (channels > 0) {
+      std::copy_n(&color[channels * p], channels, &out.color[channels * i]);
+      out.color_variance[i] = color_variance[p];
+    }
+    out.range[i] = kMiss, out.variance[i] = 0, out.cosine[i] = 1;
+    if (!hit(p)) continue;
+    const Eigen::Vector3f ray = camera.ray(pixels[i] % cols, pixels[i] / cols).normalized().cast<float>();
+    const Eigen::Map<const Eigen::Vector3f> n(&normal[3 * p]);
+    const float c = std::max(std::abs(n.dot(R * ray)), static_cast<float>(kMinCosine));
+    out.range[i] = range[p] - mean[p] / c;
+    out.variance[i] = variance[p] / (c * c);
+    out.cosine[i] = c;
+  }
 }
 
 Eigen::Vector3d Prediction::direction(std::size_t pixel) const {
@@ -40,14 +85,27 @@ namespace {
 template <class P, class Do>
 void each_member(P& prediction, const Do& act) {
   auto& [camera, stride, T_map_camera, range, mean, variance, normal, chunk, face, color_channels, color,
-         color_variance, bary] = prediction;
+         color_variance, bary, deferred] = prediction;
+  static_cast<void>(deferred);  // completed before it is saved
   act(camera), act(stride), act(T_map_camera), act(range), act(mean), act(variance), act(normal);
   act(chunk), act(face), act(color_channels), act(color), act(color_variance), act(bary);
+}
+
+/// Makes `out` a view of misses with the camera and pose of `view`.
+void blank(const Prediction& view, Prediction& out) {
+  out.reset(view.camera, 1, view.T_map_camera, view.color_channels);
+  out.stride = view.stride;
 }
 
 }  // namespace
 
 void save(RecordWriter& out, const Prediction& prediction) {
+  if (prediction.deferred) {
+    Prediction whole;
+    blank(prediction, whole);
+    prediction.deferred->fill(prediction, all_rows(prediction.camera), whole);
+    return save(out, whole);
+  }
   each_member(prediction, [&](const auto& member) { out.add(member); });
 }
 
@@ -55,22 +113,17 @@ void load(RecordReader& in, Prediction& prediction) {
   each_member(prediction, [&](auto& member) { in.take(member); });
 }
 
-std::shared_ptr<Prediction> PredictionPool::take() {
-  std::unique_ptr<Prediction> prediction;
-  {
-    std::lock_guard lock(store_->mutex);
-    if (!store_->free.empty()) {
-      prediction = std::move(store_->free.back());
-      store_->free.pop_back();
-    }
-  }
-  if (!prediction) prediction = std::make_unique<Prediction>();
-  auto give_back = [store = store_](Prediction* used) {
-    std::unique_ptr<Prediction> owned(used);
-    std::lock_guard lock(store->mutex);
-    store->free.push_back(std::move(owned));
-  };
-  return {prediction.release(), std::move(give_back)};
+PredictionHandle completed(const PredictionHandle& view, PredictionPool& pool, const Workers& workers) {
+  if (!view->deferred) return view;
+  auto out = pool.take();
+  blank(*view, *out);
+  constexpr int kBand = 16;  // rows for one worker
+  const int rows = view->camera.rows;
+  workers.for_each(static_cast<std::size_t>((rows + kBand - 1) / kBand), [&](std::size_t band, int) {
+    const int first = static_cast<int>(band) * kBand;
+    view->deferred->fill(*view, {first, std::min(first + kBand, rows)}, *out);
+  });
+  return out;
 }
 
 }  // namespace ppm

@@ -2,12 +2,15 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <mutex>
+#include <span>
 #include <vector>
 
+#include "framework/core/parallel.hpp"
+#include "framework/core/pool.hpp"
 #include "framework/core/record.hpp"
 #include "framework/core/se3.hpp"
 #include "framework/slam/camera.hpp"
+#include "framework/slam/view_samples.hpp"
 
 namespace ppm {
 
@@ -19,10 +22,27 @@ inline Rows all_rows(const Camera& camera) {
   return {0, camera.rows};
 }
 
+struct Prediction;
+
+/// A view of which a back-end knows so far which element each pixel shows, and finds the rest when asked: a likelihood
+/// that compares few pixels, or needs few of the attributes, pays for no others, and they stay in the core's cache.
+/// Refers to the map that was looked at without owning it: whoever asks must hold a handle to that map, so that it is
+/// not edited in place meanwhile. Asking changes nothing and may be done from several threads.
+class DeferredView {
+ public:
+  virtual ~DeferredView() = default;
+  /// Fills `out`, which has the size of `pixels` (indices into the view, ascending) and the colour channels that are
+  /// asked for.
+  virtual void sample(const Prediction& view, std::span<const std::uint32_t> pixels, ViewSamples& out) const = 0;
+  /// Fills some rows of all arrays of `out`, which were reset to misses. out: of the same camera and pose as `view`.
+  virtual void fill(const Prediction& view, const Rows& rows, Prediction& out) const = 0;
+};
+
 /// What a camera at a pose should see of a map: one entry a pixel of `camera` (row-major, [rows*cols]).
 /// It is where maps and likelihoods meet: a weighting knows this and no map.
 /// The described surface lies `mean` beyond the element along `normal`; expected_range() is its range along the ray.
-/// Written by one prediction node, read-only after.
+/// Written by one prediction node, read-only after. Where it is deferred the arrays are empty: sample() answers for
+/// chosen pixels, completed() gives the view with all of them.
 struct Prediction {
   static constexpr float kMiss = std::numeric_limits<float>::infinity();
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -43,8 +63,15 @@ struct Prediction {
   std::vector<float>
       bary;  ///< [2*pixels] u, v of the hit: p = (1-u-v) p0 + u p1 + v p2; 0 where elements are no triangles
 
+  std::shared_ptr<DeferredView> deferred;  ///< null where the arrays are filled
+
   /// Sizes every array for the camera and fills them with misses. Keeps capacity. channels: of colour, the map's.
   void reset(const Camera& frame_camera, int stride_, const Pose& T_map_camera_, int channels = 0);
+  /// The same without the arrays, which become empty and keep their memory: for a view that is to be deferred.
+  void reset_deferred(const Camera& frame_camera, int stride_, const Pose& T_map_camera_, int channels = 0);
+  /// What the view shows at some pixels, ascending: from the arrays, or from the deferred view (see there for who may
+  /// ask). out.color_channels: 0, or the view's.
+  void sample(std::span<const std::uint32_t> pixels, ViewSamples& out) const;
   bool hit(std::size_t pixel) const { return chunk[pixel] != kNone; }
 
   /// Smallest cosine between ray and normal that is divided by: an offset along the normal moves a grazing hit at most
@@ -71,18 +98,10 @@ void load(RecordReader& in, Prediction& prediction);
 
 using PredictionHandle = std::shared_ptr<const Prediction>;
 
-/// Recycles Predictions, so that none is allocated in the hot path. Thread-safe. Handles may outlive the pool.
-class PredictionPool {
- public:
-  /// A Prediction to be filled by its one writer; returns to the pool when its last handle goes.
-  std::shared_ptr<Prediction> take();
+using PredictionPool = Pool<Prediction>;
 
- private:
-  struct Store {
-    std::mutex mutex;
-    std::vector<std::unique_ptr<Prediction>> free;
-  };
-  std::shared_ptr<Store> store_ = std::make_shared<Store>();
-};
+/// The view with its arrays filled: itself, or, of a deferred one, a view from the pool that workers fill in bands of
+/// rows. The caller holds the map.
+PredictionHandle completed(const PredictionHandle& view, PredictionPool& pool, const Workers& workers);
 
 }  // namespace ppm

@@ -17,7 +17,7 @@ class PpmBayesUpdate final : public MapEditor {
  public:
   In<Frame> frame{this, "frame", "The image to be mapped."};
 
-  PpmBayesUpdate() : MapEditor({{"map.ppm", "prediction"}, {}, {"prediction"}}) {
+  PpmBayesUpdate() : MapEditor({{"map.ppm", "prediction"}, {}, {}}) {
     add_association();
     add_texels();
     add_surface();
@@ -30,13 +30,15 @@ class PpmBayesUpdate final : public MapEditor {
   void before(Context&) override { settings_.share(); }
 
   MapHandle edit(Context& context, std::size_t particle, MapHandle map, int) override {
-    const PredictionHandle seen = belief->prediction[particle];
-    PPM_CHECK(seen, "particle {} has no prediction", particle);
+    PPM_CHECK(belief->prediction[particle], "particle {} has no prediction", particle);
+    const PredictionHandle seen = completed(belief->prediction[particle], completed_, context.workers());
     return update_map(std::static_pointer_cast<const PpmMap>(std::move(map)), *frame, *seen, settings_, context.frame(),
                       context.workers());
   }
 
  private:
+  PredictionPool completed_;
+
   void add_association() {
     params_.add("gate_classify", settings_.classify_sigmas)
         .range(0.1, 100)

@@ -12,7 +12,7 @@ using namespace ppm;
 /// metrics  bent (faces that asked for it), inserted (vertices) of the first particle
 class Remesh final : public MapEditor {
  public:
-  Remesh() : MapEditor({{"map.ppm"}, {}, {"prediction"}}, EditReads::map) {
+  Remesh() : MapEditor({{"map.ppm"}, {}, {}}, EditReads::map) {
     add_where();
     add_how();
   }

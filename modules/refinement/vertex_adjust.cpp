@@ -16,7 +16,7 @@ enum class Boundary { keep, move };
 /// metrics  moved, refused (vertices), farthest (m) of the first particle
 class VertexAdjust final : public MapEditor {
  public:
-  VertexAdjust() : MapEditor({{"map.ppm"}, {}, {"prediction"}}, EditReads::map) {
+  VertexAdjust() : MapEditor({{"map.ppm"}, {}, {}}, EditReads::map) {
     add_threshold();
     add_form();
   }

@@ -42,7 +42,7 @@ std::shared_ptr<const PpmMap> write(std::shared_ptr<const PpmMap> map, const Reg
 
 }  // namespace
 
-MapSimplifier::MapSimplifier() : MapEditor({{"map.ppm"}, {}, {"prediction"}}, EditReads::map) {
+MapSimplifier::MapSimplifier() : MapEditor({{"map.ppm"}, {}, {}}, EditReads::map) {
   params_.add("hits_least", due_.hits_least)
       .range(0, 65535)
       .doc("Faces take part once so many pixels have measured them: what was made lately stays as it is.");

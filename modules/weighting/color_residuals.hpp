@@ -17,8 +17,8 @@ struct ColorResiduals {
   std::vector<float> map_variance;  ///< of each channel, by the map alone
   float sensor_variance = 0;        ///< of each channel, after division by the gain
 
-  /// Throws ConfigError where the prediction has no colour, DataError where the frame has none.
-  ColorResiduals(const Frame& frame, const MeasuredPixels& measured, const Prediction& prediction,
+  /// Throws ConfigError where the view has no colour, DataError where the frame has none.
+  ColorResiduals(const Frame& frame, const MeasuredPixels& measured, const ViewSamples& expected,
                  CompareColor exposure);
 };
 

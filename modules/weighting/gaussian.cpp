@@ -21,7 +21,7 @@ class GaussianWeighting final : public Weighting {
 
  protected:
   ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const Prediction&) const override {
+                  const ViewSamples&) const override {
     ViewScore s;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       if (residuals.residual[i] == Prediction::kMiss) {

@@ -27,10 +27,11 @@ class GaussianColorWeighting final : public Weighting {
   }
 
  protected:
+  bool uses_color() const override { return true; }
   ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const Prediction& prediction) const override {
-    const ColorResiduals color(*frame, measured, prediction, exposure_);
-    const auto channels = static_cast<std::size_t>(prediction.color_channels);
+                  const ViewSamples& expected) const override {
+    const ColorResiduals color(*frame, measured, expected, exposure_);
+    const auto channels = static_cast<std::size_t>(expected.color_channels);
     const double sensor = range_.of == RangeGaussian::Variance::texel_and_sensor ? color.sensor_variance : 0.0;
     ViewScore s;
     for (std::size_t i = 0; i < measured.size(); ++i) {

@@ -31,7 +31,7 @@ class RobustWeighting final : public Weighting {
 
  protected:
   ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const Prediction&) const override {
+                  const ViewSamples&) const override {
     const double log_miss = std::log(range_.miss_density);
     double sum = 0;
     ViewScore s;

@@ -53,9 +53,10 @@ class RobustColorWeighting final : public Weighting {
   }
 
  protected:
+  bool uses_color() const override { return true; }
   ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const Prediction& prediction) const override {
-    const ColorResiduals color(*frame, measured, prediction, exposure_);
+                  const ViewSamples& expected) const override {
+    const ColorResiduals color(*frame, measured, expected, exposure_);
     const double log_miss = std::log(range_.miss_density);
     double ranges = 0, colors = 0;
     ViewScore s;
@@ -67,7 +68,7 @@ class RobustColorWeighting final : public Weighting {
       }
       const auto density = range_.parts(measured, residuals, i);
       ranges += std::log(density.sum());
-      colors += std::log((density.surface * on_surface(color, i, prediction.color_channels) + density.outlier) /
+      colors += std::log((density.surface * on_surface(color, i, expected.color_channels) + density.outlier) /
                          density.sum());
       s.outliers += density.outlier > density.surface;
       s.residual_sum += std::abs(residuals.residual[i]);

@@ -68,7 +68,10 @@ TEST_CASE("range residuals compare with the described surface, not with the elem
   grid.step = 2;
   const auto m = measured_pixels(frame, frame.camera, 1, grid);
   RangeResiduals r;
-  r.compute(m, p);
+  ViewSamples expected;
+  expected.resize(m.size());
+  p.sample(m.pixel, expected);
+  r.compute(m, expected);
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (m.pixel[i] != pixel) {
       CHECK(r.residual[i] == Prediction::kMiss);

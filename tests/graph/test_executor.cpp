@@ -98,6 +98,28 @@ TEST_CASE("consecutive particle nodes run as one loop") {
                            "weigh.before 1", "walk.after 1", "look.after 1", "weigh.after 1", "camera.close 1"});
 }
 
+TEST_CASE("predictions are let go in the loop after which none reads them") {
+  const std::string count = "  - {name: count, module: sink.toy_count}\n";
+  ToyRun unread(kFilter + count);
+  unread.run(3);
+  CHECK(std::count(events().begin(), events().end(), "count.0 views in 1") == 1);
+
+  ToyRun read(kFilter + count + "  - {name: again, module: weighting.toy, when: {from_frame: 2}}\n");
+  read.run(3);
+  CHECK(std::count(events().begin(), events().end(), "count.0 views in 1") == 1);
+  CHECK(std::count(events().begin(), events().end(), "count.37 views in 2") == 1);
+
+  // Nothing makes a prediction in frame 3, so that of frame 2 is read there.
+  ToyRun later(
+      "name: toy\nnodes:\n  - {name: camera, module: source.toy, params: {count: 6}}\n"
+      "  - {name: init, module: map.toy, when: {until_frame: 0}, params: {particles: 37}}\n"
+      "  - {name: look, module: prediction.toy, in: {number: camera.number}, when: {every: 2}}\n"
+      "  - {name: weigh, module: weighting.toy}\n" + count);
+  later.run(4);
+  CHECK(std::count(events().begin(), events().end(), "count.37 views in 2") == 1);
+  CHECK(std::count(events().begin(), events().end(), "count.0 views in 3") == 1);
+}
+
 TEST_CASE("a loop ends where a node says so, and before a node that uses what the loop makes") {
   std::string head =
       "name: toy\nnodes:\n  - {name: camera, module: source.toy, params: {count: 1}}\n"

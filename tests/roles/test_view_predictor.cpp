@@ -30,10 +30,45 @@ struct ToyView final : ppm::ViewPredictor {
   }
 };
 
+/// A view that knows only how far to go: the rest is found on demand.
+struct ToyDeferred final : ppm::DeferredView {
+  std::vector<float> range;
+  void sample(const ppm::Prediction&, std::span<const std::uint32_t> pixels, ppm::ViewSamples& out) const override {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      out.range[i] = range[pixels[i]];
+      out.variance[i] = 1e-4f;
+      out.cosine[i] = 0.5f;
+    }
+  }
+  void fill(const ppm::Prediction& view, const ppm::Rows& rows, ppm::Prediction& out) const override {
+    const auto cols = static_cast<std::size_t>(view.camera.cols);
+    for (auto p = static_cast<std::size_t>(rows.first) * cols; p < static_cast<std::size_t>(rows.end) * cols; ++p) {
+      out.range[p] = range[p];
+      out.face[p] = 7;
+    }
+  }
+};
+
+struct ToyDeferring final : ppm::ViewPredictor {
+  ToyDeferring() : ViewPredictor("map.number") {}
+  void prepare(const std::vector<const ppm::Map*>&, const ppm::Workers&) override {}
+  std::shared_ptr<ppm::DeferredView> defer(const ppm::Map&, const ppm::Prediction& out) const override {
+    auto view = std::make_shared<ToyDeferred>();
+    view->range.resize(static_cast<std::size_t>(out.camera.pixels()));
+    return view;
+  }
+  void predict(const ppm::Map& map, const ppm::Rows& rows, ppm::Prediction& out, int) const override {
+    auto& range = static_cast<ToyDeferred&>(*out.deferred).range;
+    for (int i = rows.first * out.camera.cols; i < rows.end * out.camera.cols; ++i)
+      range[static_cast<std::size_t>(i)] = static_cast<float>(number_of(map) + i);
+  }
+};
+
 const ppm::Registry& toys() {
   static const ppm::Registry registry = [] {
     ppm::Registry r;
     r.add<ToyView>("prediction.toy", "Predicts numbers.", "made up");
+    r.add<ToyDeferring>("prediction.deferring", "Predicts numbers on demand.", "made up");
     return r;
   }();
   return registry;
@@ -95,4 +130,46 @@ TEST_CASE("a view is made in parts where there are few, whole where there are ma
     for (std::size_t i = 0; i < particles; ++i)
       CHECK(belief.prediction[i]->range == std::vector<float>(3 * 37, static_cast<float>(10 + i)));
   }
+}
+
+TEST_CASE("a deferred view answers for chosen pixels, is completed from a pool, and predict_all() fills the arrays") {
+  for (std::size_t particles : {1u, 40u}) {
+    ppm::Harness h(toys(), "prediction.deferring", "{stride: 2}", 4);
+    h.input<ppm::Frame>("frame", frame_of(6, 74));
+    auto& belief = h.belief();
+    belief.init(particles, shifted(0), number_map(10));
+    for (std::size_t i = 0; i < particles; ++i) belief.pose[i] = shifted(static_cast<double>(i));
+    h.tick();
+    const auto& view = belief.prediction.back();
+    REQUIRE(view->deferred);
+    CHECK(view->range.empty());
+    ppm::ViewSamples samples;
+    const std::vector<std::uint32_t> pixels{3, 50, 110};
+    samples.resize(pixels.size());
+    view->sample(pixels, samples);
+    CHECK(samples.range == std::vector<float>{13, 60, 120});
+
+    ppm::PredictionPool pool;
+    const ppm::Workers workers(3);
+    const auto whole = completed(view, pool, workers);
+    CHECK_FALSE(whole->deferred);
+    CHECK(whole->camera == view->camera);
+    CHECK(whole->stride == 2);
+    CHECK(whole->range.size() == 3 * 37);
+    CHECK(whole->range.back() == 10 + 3 * 37 - 1);
+    CHECK(whole->face == std::vector<std::uint32_t>(3 * 37, 7));
+    CHECK(completed(whole, pool, workers) == whole);
+
+    ppm::RecordWriter saved;
+    saved.add(*view);
+    ppm::RecordWriter saved_whole;
+    saved_whole.add(*whole);
+    CHECK(saved.bytes() == saved_whole.bytes());
+  }
+  ToyDeferring predictor;
+  ppm::Prediction out;
+  out.reset({3, 2, 1, 1, 1, 1}, 1, shifted(0));
+  predictor.predict_all(*number_map(5), out, 0);
+  CHECK_FALSE(out.deferred);
+  CHECK(out.range == std::vector<float>{5, 6, 7, 8, 9, 10});
 }

@@ -119,7 +119,7 @@ class ToyLook : public ParticleModule {
   InOut<Belief> belief{this, {{"map.toy"}, {"prediction"}, {}}};
   void before(Context& context) override { note(context, "before"); }
   using ParticleModule::tick;
-  void tick(Context&, std::size_t, int) override {}
+  void tick(Context&, std::size_t i, int) override { belief->prediction[i] = std::make_shared<Prediction>(); }
   void after(Context& context) override {
     note(context, "after");
     doubled.set(std::make_shared<ToyNumber>(ToyNumber{2 * number->value}));
@@ -211,6 +211,16 @@ class ToyMapSink : public Module {
   void tick(Context& context) override { note(context, "tick"); }
 };
 
+/// Notes how many particles have a prediction, without asking for any.
+class ToyCount : public Module {
+ public:
+  In<Belief> belief{this, {{"belief"}, {}, {}}};
+  void tick(Context& context) override {
+    const auto none = std::count(belief->prediction.begin(), belief->prediction.end(), nullptr);
+    note(context, fmt::format("{} views in", static_cast<std::ptrdiff_t>(belief->size()) - none));
+  }
+};
+
 /// Throws in the frame that its parameter names.
 class ToyThrow : public ParticleModule {
  public:
@@ -247,6 +257,7 @@ inline Registry toy_registry() {
   r.add<ToySum>("sink.toy_sum", "Sums numbers.", "None.");
   r.add<ToyWind>("refinement.toy_wind", "Blows.", "None.");
   r.add<ToyMapSink>("sink.toy_map", "Reads a map.", "None.");
+  r.add<ToyCount>("sink.toy_count", "Counts views.", "None.");
   r.add<ToyPlusOne>("preprocess.plus_one", "Adds one.", "None.");
   r.add<ToyThrow>("refinement.toy_throw", "Throws.", "None.");
   return r;
