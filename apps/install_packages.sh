@@ -3,7 +3,7 @@
 set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache mold pkg-config git
-  libeigen3-dev libembree-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+  libeigen3-dev libembree-dev libhwy-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   libtbb-dev librandom123-dev libpng-dev libjpeg-dev zlib1g-dev libxxhash-dev libboost-dev libmeshoptimizer-dev
   libopenvdb-dev libboost-iostreams-dev
   catch2 libopenmesh-dev libtinygltf-dev libbenchmark-dev libmrpt-bayes-dev jq
