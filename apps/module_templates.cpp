@@ -141,15 +141,14 @@ class NewModule final : public Weighting {
   }
 
  protected:
-  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const ViewSamples&) const override {
+  ViewScore score(const PixelBlock& pixels) const override {
     ViewScore s;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      const double off = residuals.residual[i];
-      if (residuals.residual[i] == Prediction::kMiss) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (!pixels.hit(i)) {
         ++s.misses;
         continue;
       }
+      const double off = pixels.residual(i);
       s.log_likelihood -= std::abs(off) / scale_m_;
       s.residual_sum += std::abs(off);
       ++s.hits;

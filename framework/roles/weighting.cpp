@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace ppm {
 namespace {
@@ -15,6 +16,15 @@ double entropy(const std::vector<double>& log_weight) {
 }
 
 }  // namespace
+
+ViewScore& ViewScore::operator+=(const ViewScore& part) {
+  log_likelihood += part.log_likelihood;
+  hits += part.hits;
+  misses += part.misses;
+  outliers += part.outliers;
+  residual_sum += part.residual_sum;
+  return *this;
+}
 
 Weighting::Weighting(int pixels) : belief(this, {{"prediction"}, {}, {}}), pixels_(pixels) {
   params_.add("pixels", pixels_)
@@ -31,7 +41,6 @@ Weighting::Weighting(int pixels) : belief(this, {{"prediction"}, {}, {}}), pixel
 void Weighting::before(Context& context) {
   measured_made_ = false;
   expected_.resize(context.threads());
-  residuals_.resize(context.threads());
   scores_.assign(belief->size(), {});
   if (phase_ == Phase::random) {
     Rng rng = context.rng("phase");
@@ -59,10 +68,13 @@ void Weighting::tick(Context&, std::size_t particle, int worker) {
   const Prediction& prediction = *belief->prediction[particle];
   const MeasuredPixels& pixels = measured(prediction);
   ViewSamples& expected = expected_[worker];
-  expected.resize(pixels.size(), uses_color() ? prediction.color_channels : 0);
-  prediction.sample(pixels.pixel, expected);
-  residuals_[worker].compute(pixels, expected);
-  scores_[particle] = score(pixels, residuals_[worker], expected);
+  const int channels = uses_color() ? prediction.color_channels : 0;
+  ViewScore& total = scores_[particle];
+  for (std::size_t first = 0; first < pixels.size(); first += expected.size()) {
+    expected.resize(std::min(block_size(), pixels.size() - first), channels);
+    prediction.sample(std::span(pixels.pixel).subspan(first, expected.size()), expected);
+    total += score({*frame, pixels, first, expected});
+  }
 }
 
 void Weighting::after(Context& context) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <mutex>
 #include <vector>
 
@@ -7,15 +8,18 @@
 #include "framework/graph/particle_module.hpp"
 #include "framework/slam/frame.hpp"
 #include "framework/slam/measured_pixels.hpp"
+#include "framework/slam/pixel_block.hpp"
 
 namespace ppm {
 
-/// How well one particle's view explains a frame.
+/// How well one particle's view, or a part of it, explains a frame.
 struct ViewScore {
   double log_likelihood = 0;
   std::size_t hits = 0, misses = 0;  ///< compared pixels where the map shows something, and nothing
   std::size_t outliers = 0;          ///< hits that the likelihood holds for something else than the map's surface
   double residual_sum = 0;           ///< m, of |measured - expected| over the hits
+
+  ViewScore& operator+=(const ViewScore& part);
 };
 
 /// Base of every `weighting.*`: adds the log likelihood of a frame to every particle and normalises. It knows no map: a
@@ -46,10 +50,13 @@ class Weighting : public ParticleModule {
  protected:
   /// pixels: default of the parameter of that name.
   explicit Weighting(int pixels);
-  /// The likelihood of the measured pixels. expected: what the particle's view shows there, which the residuals come
-  /// from, with colour where uses_color(). Called from any worker; sums in the order of the pixels.
-  virtual ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                          const ViewSamples& expected) const = 0;
+  /// What some of the measured pixels say: each view's are taken in blocks of block_size(), in order, and the scores
+  /// added up, so that what is expected of a block is weighed while it is in the nearest cache. Called from any worker.
+  virtual ViewScore score(const PixelBlock& pixels) const = 0;
+  /// Most pixels of a block; kWholeView for a likelihood that must see all of a view's at once.
+  virtual std::size_t block_size() const { return kBlockSize; }
+  static constexpr std::size_t kBlockSize = 1024, kWholeView = std::numeric_limits<std::size_t>::max();
+  /// Whether PixelBlock::expected is to have colour.
   virtual bool uses_color() const { return false; }
 
   double jump_m_ = 0;  ///< see PixelGrid; for likelihoods that leave jumps out
@@ -64,7 +71,6 @@ class Weighting : public ParticleModule {
   bool measured_made_ = false;
   MeasuredPixels measured_;
   PerWorker<ViewSamples> expected_;
-  PerWorker<RangeResiduals> residuals_;
   std::vector<ViewScore> scores_;  // of this frame's particles, from tick() to after()
   bool warned_ = false;
 };

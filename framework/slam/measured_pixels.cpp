@@ -34,25 +34,14 @@ MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int 
       if (!frame.valid(at)) continue;
       if (grid.jump_m > 0 && at_jump(frame, stride * x, stride * y, grid.jump_m)) continue;
       const auto source = static_cast<std::size_t>(at);
-      const Eigen::Vector3d ray = predicted.ray(x, y);
-      const double length = ray.norm();
+      const double length = predicted.ray(x, y).norm();
       out.pixel.push_back(static_cast<std::uint32_t>(y * predicted.cols + x));
       out.source.push_back(static_cast<std::uint32_t>(at));
       out.range.push_back(static_cast<float>(frame.depth[source] * length));
       out.variance.push_back(static_cast<float>(std::pow(frame.sigma[source] * length, 2)));
       out.lateral.push_back(static_cast<float>(frame.lateral_px * frame.depth[source] / std::abs(frame.camera.fx)));
-      for (int k = 0; k < 3; ++k) out.direction.push_back(static_cast<float>(ray[k] / length));
     }
   return out;
-}
-
-void RangeResiduals::compute(const MeasuredPixels& measured, const ViewSamples& expected) {
-  const std::size_t n = measured.size();
-  residual.resize(n);
-  map_variance = expected.variance;
-  cosine = expected.cosine;
-  for (std::size_t i = 0; i < n; ++i)
-    residual[i] = expected.range[i] == Prediction::kMiss ? Prediction::kMiss : measured.range[i] - expected.range[i];
 }
 
 }  // namespace ppm

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "framework/slam/frame.hpp"
-#include "framework/slam/prediction.hpp"
 
 namespace ppm {
 
@@ -23,21 +22,10 @@ struct MeasuredPixels {
   std::vector<float> range;          ///< m along the ray
   std::vector<float> variance;       ///< m^2 of the range
   std::vector<float> lateral;        ///< m, standard deviation across the ray (Frame::lateral_px at this depth)
-  std::vector<float> direction;      ///< [3*size] unit, camera frame
   std::size_t size() const { return pixel.size(); }
 };
 
 /// predicted: camera of the Prediction, the frame's decimated by `stride`.
 MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int stride, const PixelGrid& grid);
-
-/// Measured against predicted ranges, one entry a measured pixel. Kept between calls for its memory. expected: of the
-/// measured pixels.
-struct RangeResiduals {
-  std::vector<float>
-      residual;  ///< m, measured minus expected range of the described surface; kMiss where the map shows nothing
-  std::vector<float> map_variance;  ///< m^2 of the expected range, from the map alone; 0 at a miss
-  std::vector<float> cosine;        ///< |normal . direction|, at least Prediction::kMinCosine; 1 at a miss
-  void compute(const MeasuredPixels& measured, const ViewSamples& expected);
-};
 
 }  // namespace ppm

@@ -6,30 +6,37 @@
 
 namespace ppm {
 
-ColorResiduals::ColorResiduals(const Frame& frame, const MeasuredPixels& measured, const ViewSamples& expected,
-                               CompareColor exposure) {
-  const auto channels = static_cast<std::size_t>(expected.color_channels);
-  if (channels == 0)
+ColorResiduals::ColorResiduals(const PixelBlock& pixels, CompareColor exposure) : pixels_(pixels) {
+  if (channels() == 0)
     throw ConfigError({}, "colours are to be weighed, but the map has none; set `color` of the node that starts it");
-  if (frame.color.empty())
-    throw DataError("the source", frame.index, "gives no colour to be weighed; set `color: true` at the source");
-  const std::size_t n = measured.size();
-  std::vector<ColorValue> shown(n, ColorValue{});
-  residual.resize(n);
-  map_variance.resize(n);
-  ColorGain comparison(expected.color_channels);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (expected.range[i] == Prediction::kMiss) continue;
-    std::copy_n(&expected.color[channels * i], channels, shown[i].begin());
-    residual[i] = color_of(frame, measured.source[i], expected.color_channels);
-    map_variance[i] = expected.color_variance[i];
-    if (exposure == CompareColor::gain) comparison.add(residual[i], shown[i]);
+  if (pixels.frame.color.empty())
+    throw DataError("the source", pixels.frame.index, "gives no colour to be weighed; set `color: true` at the source");
+  if (exposure == CompareColor::gain) {
+    ColorGain comparison(pixels.expected.color_channels);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      if (pixels.hit(i)) comparison.add(measured(i), expected(i));
+    gain_ = comparison.estimate();
   }
-  const ColorValue gain = comparison.estimate();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t c = 0; c < channels; ++c) residual[i][c] = residual[i][c] / gain[c] - shown[i][c];
-  const float sensor = frame.color_sigma / *std::min_element(gain.begin(), gain.begin() + expected.color_channels);
-  sensor_variance = sensor * sensor;
+  const float sensor =
+      pixels.frame.color_sigma / *std::min_element(gain_.begin(), gain_.begin() + pixels.expected.color_channels);
+  sensor_variance_ = sensor * sensor;
+}
+
+ColorValue ColorResiduals::measured(std::size_t i) const {
+  return color_of(pixels_.frame, pixels_.source[i], pixels_.expected.color_channels);
+}
+
+ColorValue ColorResiduals::expected(std::size_t i) const {
+  ColorValue shown{};
+  std::copy_n(&pixels_.expected.color[channels() * i], channels(), shown.begin());
+  return shown;
+}
+
+ColorValue ColorResiduals::residual(std::size_t i) const {
+  ColorValue off = measured(i);
+  const ColorValue shown = expected(i);
+  for (std::size_t c = 0; c < channels(); ++c) off[c] = off[c] / gain_[c] - shown[c];
+  return off;
 }
 
 }  // namespace ppm

@@ -20,15 +20,14 @@ class GaussianWeighting final : public Weighting {
   }
 
  protected:
-  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const ViewSamples&) const override {
+  ViewScore score(const PixelBlock& pixels) const override {
     ViewScore s;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      if (residuals.residual[i] == Prediction::kMiss) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (!pixels.hit(i)) {
         ++s.misses;
         continue;
       }
-      const double r = residuals.residual[i], variance = range_.variance(measured, residuals, i);
+      const double r = pixels.residual(i), variance = range_.variance(pixels, i);
       s.log_likelihood += log_normal(r, variance);
       s.outliers += r * r > 9.0 * variance;
       s.residual_sum += std::abs(r);

@@ -28,21 +28,21 @@ class GaussianColorWeighting final : public Weighting {
 
  protected:
   bool uses_color() const override { return true; }
-  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const ViewSamples& expected) const override {
-    const ColorResiduals color(*frame, measured, expected, exposure_);
-    const auto channels = static_cast<std::size_t>(expected.color_channels);
-    const double sensor = range_.of == RangeGaussian::Variance::texel_and_sensor ? color.sensor_variance : 0.0;
+  std::size_t block_size() const override { return exposure_ == CompareColor::gain ? kWholeView : kBlockSize; }
+  ViewScore score(const PixelBlock& pixels) const override {
+    const ColorResiduals color(pixels, exposure_);
+    const double sensor = range_.of == RangeGaussian::Variance::texel_and_sensor ? color.sensor_variance() : 0.0;
     ViewScore s;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      if (residuals.residual[i] == Prediction::kMiss) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (!pixels.hit(i)) {
         ++s.misses;
         continue;
       }
-      const double r = residuals.residual[i], variance = range_.variance(measured, residuals, i);
+      const double r = pixels.residual(i), variance = range_.variance(pixels, i);
       s.log_likelihood += log_normal(r, variance);
-      const double color_variance = std::max(color.map_variance[i] + sensor, kLeastVariance);
-      for (std::size_t c = 0; c < channels; ++c) s.log_likelihood += log_normal(color.residual[i][c], color_variance);
+      const double color_variance = std::max(pixels.expected.color_variance[i] + sensor, kLeastVariance);
+      const ColorValue off = color.residual(i);
+      for (std::size_t c = 0; c < color.channels(); ++c) s.log_likelihood += log_normal(off[c], color_variance);
       s.outliers += r * r > 9.0 * variance;
       s.residual_sum += std::abs(r);
       ++s.hits;

@@ -9,10 +9,10 @@ void RangeGaussian::declare(Params& params) {
       .doc("Variance of a pixel: the texel's alone, as in the paper, or the predictive one, with the sensor's added.");
 }
 
-double RangeGaussian::variance(const MeasuredPixels& measured, const RangeResiduals& residuals, std::size_t i) const {
+double RangeGaussian::variance(const PixelBlock& pixels, std::size_t i) const {
   constexpr double kLeast = 1e-10;  // m^2: a map may be certain, but not beyond 10 micrometres
-  const double sensor = of == Variance::texel_and_sensor ? measured.variance[i] : 0.0;
-  return std::max(residuals.map_variance[i] + sensor, kLeast);
+  const double sensor = of == Variance::texel_and_sensor ? pixels.variance[i] : 0.0;
+  return std::max(pixels.expected.variance[i] + sensor, kLeast);
 }
 
 }  // namespace ppm

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "framework/config/params.hpp"
-#include "framework/slam/measured_pixels.hpp"
+#include "framework/slam/pixel_block.hpp"
 
 namespace ppm {
 
@@ -18,8 +18,8 @@ struct RangeGaussian {
 
   /// Declares the parameter `variance`.
   void declare(Params& params);
-  /// m^2 along the ray, of the i-th measured pixel.
-  double variance(const MeasuredPixels& measured, const RangeResiduals& residuals, std::size_t i) const;
+  /// m^2 along the ray, of the i-th pixel.
+  double variance(const PixelBlock& pixels, std::size_t i) const;
 };
 
 }  // namespace ppm

@@ -20,12 +20,11 @@ void RangeMixture::declare(Params& params) {
       .doc("Standard deviation of the map's surface, along the normal, beyond what its texels say.");
 }
 
-RangeMixture::Parts RangeMixture::parts(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                                        std::size_t i) const {
+RangeMixture::Parts RangeMixture::parts(const PixelBlock& pixels, std::size_t i) const {
   const double inlier = (1 - outlier_share) / std::sqrt(2 * std::numbers::pi);
-  const double r = residuals.residual[i], c2 = residuals.cosine[i] * residuals.cosine[i];
-  const double lateral = measured.lateral[i];
-  const double variance = measured.variance[i] + residuals.map_variance[i] +
+  const double r = pixels.residual(i), c2 = pixels.expected.cosine[i] * pixels.expected.cosine[i];
+  const double lateral = pixels.lateral[i];
+  const double variance = pixels.variance[i] + pixels.expected.variance[i] +
                           (model_sigma * model_sigma + lateral * lateral * (1 - c2)) / c2;
   return {inlier / std::sqrt(variance) * std::exp(-0.5 * r * r / variance), outlier_share / max_range};
 }

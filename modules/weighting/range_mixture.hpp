@@ -2,7 +2,7 @@
 #include <cstddef>
 
 #include "framework/config/params.hpp"
-#include "framework/slam/measured_pixels.hpp"
+#include "framework/slam/pixel_block.hpp"
 
 namespace ppm {
 
@@ -25,8 +25,8 @@ struct RangeMixture {
     double surface, outlier;
     double sum() const { return surface + outlier; }
   };
-  /// Of the i-th measured pixel, which must hit something.
-  Parts parts(const MeasuredPixels& measured, const RangeResiduals& residuals, std::size_t i) const;
+  /// Of the i-th pixel, which must hit something.
+  Parts parts(const PixelBlock& pixels, std::size_t i) const;
 };
 
 }  // namespace ppm

@@ -30,21 +30,20 @@ class RobustWeighting final : public Weighting {
   }
 
  protected:
-  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const ViewSamples&) const override {
+  ViewScore score(const PixelBlock& pixels) const override {
     const double log_miss = std::log(range_.miss_density);
     double sum = 0;
     ViewScore s;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      if (residuals.residual[i] == Prediction::kMiss) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (!pixels.hit(i)) {
         ++s.misses;
         sum += log_miss;
         continue;
       }
-      const auto density = range_.parts(measured, residuals, i);
+      const auto density = range_.parts(pixels, i);
       sum += std::log(density.sum());
       s.outliers += density.outlier > density.surface;
-      s.residual_sum += std::abs(residuals.residual[i]);
+      s.residual_sum += std::abs(pixels.residual(i));
       ++s.hits;
     }
     s.log_likelihood = temper_ * sum;

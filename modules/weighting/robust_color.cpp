@@ -54,24 +54,24 @@ class RobustColorWeighting final : public Weighting {
 
  protected:
   bool uses_color() const override { return true; }
-  ViewScore score(const MeasuredPixels& measured, const RangeResiduals& residuals,
-                  const ViewSamples& expected) const override {
-    const ColorResiduals color(*frame, measured, expected, exposure_);
+  std::size_t block_size() const override { return exposure_ == CompareColor::gain ? kWholeView : kBlockSize; }
+  ViewScore score(const PixelBlock& pixels) const override {
+    const ColorResiduals color(pixels, exposure_);
     const double log_miss = std::log(range_.miss_density);
     double ranges = 0, colors = 0;
     ViewScore s;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      if (residuals.residual[i] == Prediction::kMiss) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (!pixels.hit(i)) {
         ++s.misses;
         ranges += log_miss;
         continue;
       }
-      const auto density = range_.parts(measured, residuals, i);
+      const auto density = range_.parts(pixels, i);
       ranges += std::log(density.sum());
-      colors += std::log((density.surface * on_surface(color, i, expected.color_channels) + density.outlier) /
+      colors += std::log((density.surface * on_surface(color, pixels, i) + density.outlier) /
                          density.sum());
       s.outliers += density.outlier > density.surface;
-      s.residual_sum += std::abs(residuals.residual[i]);
+      s.residual_sum += std::abs(pixels.residual(i));
       ++s.hits;
     }
     s.log_likelihood = temper_ * ranges + color_temper_ * colors;
@@ -80,11 +80,11 @@ class RobustColorWeighting final : public Weighting {
 
  private:
   /// Density of a colour measured on the map's surface.
-  double on_surface(const ColorResiduals& color, std::size_t i, int channels) const {
-    const double variance = color.map_variance[i] + color.sensor_variance + model_color_ * model_color_;
+  double on_surface(const ColorResiduals& color, const PixelBlock& pixels, std::size_t i) const {
+    const double variance = pixels.expected.color_variance[i] + color.sensor_variance() + model_color_ * model_color_;
+    const ColorValue off = color.residual(i);
     double log_density = 0;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
-      log_density += log_normal(color.residual[i][c], variance);
+    for (std::size_t c = 0; c < color.channels(); ++c) log_density += log_normal(off[c], variance);
     return (1 - color_outlier_share_) * std::exp(log_density) + color_outlier_share_;
   }
 
