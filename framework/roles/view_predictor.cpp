@@ -16,6 +16,8 @@ ViewPredictor::ViewPredictor(const std::string& map_facet) : belief(this, {{map_
   params_.add("stride", stride_).range(1, 64).doc("Predicts each n-th pixel of each n-th row of the frame.");
 }
 
+void ViewPredictor::expect(const Camera&, const std::vector<ExpectedView>&) {}
+
 std::shared_ptr<DeferredView> ViewPredictor::defer(const Map&, const Prediction&) const {
   return nullptr;
 }
@@ -42,12 +44,16 @@ void ViewPredictor::before(Context& context) {
   particles.prediction.assign(particles.size(), nullptr);
   const auto leader = twins(particles, false);
   std::vector<std::size_t> views, shared;
+  std::vector<ExpectedView> expected;
   for (std::size_t i = 0; i < leader.size(); ++i) {
-    if (leader[i] == i)
+    if (leader[i] == i) {
       views.push_back(i);
-    else
+      expected.push_back({particles.map[i].get(), particles.pose[i]});
+    } else {
       shared.push_back(leader[i]);
+    }
   }
+  expect(frame->camera.decimated(stride_), expected);
   std::sort(shared.begin(), shared.end());
   shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
   const bool few = views.size() < 2 * static_cast<std::size_t>(context.workers().threads());

@@ -19,6 +19,14 @@ class ViewPredictor : public ParticleModule {
   /// Work shared by all views of one map before they are predicted (acceleration structures). The maps are distinct, in
   /// the order of the first particle that has each. Called from one thread.
   virtual void prepare(const std::vector<const Map*>& maps, const Workers& workers) = 0;
+  /// A view that is to be predicted.
+  struct ExpectedView {
+    const Map* map = nullptr;
+    Pose T_map_camera = Pose::Identity();
+  };
+  /// The views that the loop over particles is going to ask for, each once, for back-ends that draw many together;
+  /// others may be asked for all the same. camera: of all of them. After prepare(), from one thread.
+  virtual void expect(const Camera& camera, const std::vector<ExpectedView>& views);
   /// The back-end's own view, to be filled by predict(), or null where it fills the arrays of the Prediction. out: has
   /// camera, pose and colour channels. Called from any worker.
   virtual std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const;

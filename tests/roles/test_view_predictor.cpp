@@ -12,12 +12,19 @@ using namespace ppm::test;
 
 std::atomic<int> views;
 std::vector<int> prepared;
+std::vector<float> expected;  // of the views that were announced, what they show
 
 /// Predicts the map's number plus the camera's x as range, everywhere.
 struct ToyView final : ppm::ViewPredictor {
   ToyView() : ViewPredictor("map.number") {}
   void prepare(const std::vector<const ppm::Map*>& maps, const ppm::Workers&) override {
     for (const auto* map : maps) prepared.push_back(number_of(*map));
+  }
+  void expect(const ppm::Camera& camera, const std::vector<ExpectedView>& all) override {
+    CHECK(camera == frame->camera.decimated(frame->camera.cols == 8 ? 2 : 1));
+    expected.clear();
+    for (const auto& view : all)
+      expected.push_back(static_cast<float>(number_of(*view.map) + view.T_map_camera.translation().x()));
   }
   void predict(const ppm::Map& map, const ppm::Rows& rows, ppm::Prediction& out, int) const override {
     if (rows.first == 0) ++views;
@@ -98,6 +105,7 @@ TEST_CASE("each particle gets its view, twins the same one, each map is prepared
     h.tick();
     CHECK(prepared == std::vector<int>{10, 20});
     CHECK(views == 3);
+    CHECK(expected == std::vector<float>{10, 20, 10.5});
     CHECK(belief.prediction[0] == belief.prediction[3]);
     CHECK(belief.prediction[1] == belief.prediction[4]);
     const std::vector<float> ranges{10, 20, 10.5, 10, 20};
