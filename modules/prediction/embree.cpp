@@ -20,7 +20,9 @@ const PpmMap& as_ppm(const Map& map) {
 /// prediction  range to the base face (not to the described surface), texel mean and variance at the hit, the face's
 ///             normal; colour where the map has it; a face seen from its unobserved side is no hit unless `backfaces` says so
 ///
-/// metrics     scenes, built (acceleration structures alive; built in this frame), scenes_mb
+/// Nodes of one graph that build alike share the acceleration structures.
+///
+/// metrics     scenes, built (acceleration structures in use; built in this frame by this node), scenes_mb (of all nodes)
 ///
 /// source      paper, section 4.2; Wald et al., "Embree", SIGGRAPH 2014
 class EmbreePredictor final : public ViewPredictor {
@@ -35,7 +37,7 @@ class EmbreePredictor final : public ViewPredictor {
         .doc("Watertight test of ray against triangle: no ray slips between two faces.");
     params_.add_choice("build", scene_.build, {{"low", Build::low}, {"medium", Build::medium}, {"high", Build::high}})
         .doc("Quality of the acceleration structures: low builds fastest, high traces fastest.");
-    params_.add_choice("backfaces", scene_.cull_back_faces, {{"cull", true}, {"hit", false}})
+    params_.add_choice("backfaces", view_.cull_back_faces, {{"cull", true}, {"hit", false}})
         .doc(
             "What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it "
             "there.");
@@ -63,14 +65,22 @@ class EmbreePredictor final : public ViewPredictor {
     scenes_->update(meshes, workers);
   }
 
+  std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const override {
+    auto view = views_.take();
+    view->start(as_ppm(map), view_.linear_texels, static_cast<std::size_t>(out.camera.pixels()));
+    return view;
+  }
+
   void predict(const Map& map, const Rows& rows, Prediction& out, int) const override {
-    trace_view(as_ppm(map), scenes_->of(as_ppm(map)), view_, rows, out);
+    trace_hits(as_ppm(map), scenes_->of(as_ppm(map)), view_, rows, out,
+               static_cast<ElementView&>(*out.deferred).hits());
   }
 
  private:
   using Build = EmbreeOptions::Build;
   EmbreeOptions scene_;
   EmbreeViewOptions view_;
+  mutable Pool<ElementView> views_;
   std::unique_ptr<EmbreeScenes> scenes_;  // made on first use: the options are known only then
 };
 

@@ -9,20 +9,15 @@
 namespace ppm {
 namespace {
 
-// Refuses hits whose geometric normal (right-hand rule over the face's winding) looks away from the ray's origin.
-void refuse_back_faces(const RTCFilterFunctionNArguments* args) {
-  const unsigned n = args->N;
-  for (unsigned i = 0; i < n; ++i) {
-    const float along = RTCHitN_Ng_x(args->hit, n, i) * RTCRayN_dir_x(args->ray, n, i) +
-                        RTCHitN_Ng_y(args->hit, n, i) * RTCRayN_dir_y(args->ray, n, i) +
-                        RTCHitN_Ng_z(args->hit, n, i) * RTCRayN_dir_z(args->ray, n, i);
-    if (along >= 0.f) args->valid[i] = 0;
-  }
-}
-
 RTCBuildQuality quality(EmbreeOptions::Build build) {
   if (build == EmbreeOptions::Build::low) return RTC_BUILD_QUALITY_LOW;
   return build == EmbreeOptions::Build::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+}
+
+// Rays bring their own filter of hits, see trace_hits().
+RTCSceneFlags scene_flags(const EmbreeOptions& options) {
+  const int robust = options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+  return static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | robust);
 }
 
 const char* reason(RTCError error) {
@@ -71,11 +66,10 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Geometry& geometry) {
   if (position && face) {
     std::memcpy(position, geometry.position.data(), geometry.position.size() * 3 * sizeof(float));
     std::memcpy(face, geometry.face.data(), geometry.face.size() * 3 * sizeof(std::uint32_t));
-    if (options.cull_back_faces) rtcSetGeometryIntersectFilterFunction(mesh, refuse_back_faces);
     rtcSetGeometryBuildQuality(mesh, quality(options.build));
     rtcCommitGeometry(mesh);
     scene_.reset(rtcNewScene(device.handle()));
-    rtcSetSceneFlags(handle(), options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    rtcSetSceneFlags(handle(), scene_flags(options));
     rtcSetSceneBuildQuality(handle(), quality(options.build));
     rtcAttachGeometry(handle(), mesh);
     rtcJoinCommitScene(handle());

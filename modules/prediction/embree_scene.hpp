@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <compare>
 #include <cstdint>
 #include <memory>
 
@@ -13,8 +14,8 @@ namespace ppm {
 /// How chunk scenes are built. Fixed for the life of a device.
 struct EmbreeOptions {
   bool robust = true;           ///< watertight ray-triangle test: no ray slips between two faces that share an edge
-  bool cull_back_faces = true;  ///< faces seen from behind are no hits, the ray goes on
   enum class Build { low, medium, high } build = Build::medium;
+  auto operator<=>(const EmbreeOptions&) const = default;
 };
 
 /// An Embree device, and the memory that its scenes occupy.

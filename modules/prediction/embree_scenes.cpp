@@ -1,8 +1,36 @@
 #include "modules/prediction/embree_scenes.hpp"
 
+#include <map>
+
 #include "framework/core/error.hpp"
 
 namespace ppm {
+
+std::shared_ptr<EmbreeStore> EmbreeStore::of(const EmbreeOptions& options) {
+  static std::mutex mutex;
+  static std::map<EmbreeOptions, std::weak_ptr<EmbreeStore>> stores;
+  std::lock_guard lock(mutex);
+  auto& known = stores[options];
+  auto store = known.lock();
+  if (!store) known = store = std::make_shared<EmbreeStore>(options);
+  return store;
+}
+
+std::shared_ptr<const EmbreeScene> EmbreeStore::find(std::uint64_t geometry_id) {
+  std::lock_guard lock(mutex_);
+  const auto found = scenes_.find(geometry_id);
+  return found == scenes_.end() ? nullptr : found->second.lock();
+}
+
+void EmbreeStore::add(std::uint64_t geometry_id, const std::shared_ptr<const EmbreeScene>& scene) {
+  std::lock_guard lock(mutex_);
+  scenes_[geometry_id] = scene;
+}
+
+void EmbreeStore::tidy() {
+  std::lock_guard lock(mutex_);
+  std::erase_if(scenes_, [](const auto& item) { return item.second.expired(); });
+}
 
 void EmbreeScenes::update(const std::vector<const PpmMap*>& maps, const Workers& workers) {
   ++updates_;
@@ -11,14 +39,19 @@ void EmbreeScenes::update(const std::vector<const PpmMap*>& maps, const Workers&
     for (const PpmChunk& chunk : map->table().chunks()) {
       if (chunk.geometry->face.empty()) continue;
       Entry& entry = entries_[chunk.geometry->id];
-      if (!entry.scene && entry.used != updates_) missing.emplace_back(&entry, chunk.geometry.get());
+      if (!entry.scene && entry.used != updates_) {
+        entry.scene = store_->find(chunk.geometry->id);
+        if (!entry.scene) missing.emplace_back(&entry, chunk.geometry.get());
+      }
       entry.used = updates_;
     }
   workers.for_each(missing.size(), [&](std::size_t i, int) {
-    missing[i].first->scene = std::make_unique<EmbreeScene>(device_, *missing[i].second);
+    auto& [entry, geometry] = missing[i];
+    entry->scene = std::make_shared<const EmbreeScene>(store_->device(), *geometry);
+    store_->add(geometry->id, entry->scene);
   });
   built_ = missing.size();
-  std::erase_if(entries_, [&](const auto& item) { return item.second.used != updates_; });
+  if (std::erase_if(entries_, [&](const auto& item) { return item.second.used != updates_; }) > 0) store_->tidy();
 
   by_map_.clear();
   for (const PpmMap* map : maps) {

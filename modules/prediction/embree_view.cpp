@@ -6,9 +6,7 @@
 #include <embree3/rtcore.h>
 
 #include "framework/core/error.hpp"
-#include "modules/maps/ppm/color_sample.hpp"
 #include "modules/maps/ppm/ppm_map.hpp"
-#include "modules/maps/ppm/texel_sample.hpp"
 #include "modules/maps/ppm/visible_chunks.hpp"
 
 namespace ppm {
@@ -54,21 +52,32 @@ T* lanes(T (&array)[n]) {
   return array;
 }
 
+// Refuses hits whose geometric normal (right-hand rule over the face's winding) looks away from the ray's origin.
+void refuse_back_faces(const RTCFilterFunctionNArguments* args) {
+  const unsigned n = args->N;
+  for (unsigned i = 0; i < n; ++i) {
+    const float along = RTCHitN_Ng_x(args->hit, n, i) * RTCRayN_dir_x(args->ray, n, i) +
+                        RTCHitN_Ng_y(args->hit, n, i) * RTCRayN_dir_y(args->ray, n, i) +
+                        RTCHitN_Ng_z(args->hit, n, i) * RTCRayN_dir_z(args->ray, n, i);
+    if (along >= 0.f) args->valid[i] = 0;
+  }
+}
+
 template <int N>
 class ViewTracer {
   using P = Packet<N>;
 
  public:
   ViewTracer(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
-             const Rows& rows, Prediction& out)
-      : map_(map), scenes_(scenes), options_(options), rows_(rows), out_(out) {
+             const Rows& rows, const Prediction& view, ElementHits& hits)
+      : map_(map), scenes_(scenes), options_(options), rows_(rows), view_(view), camera_(view.camera), hits_(hits) {
     rtcInitIntersectContext(&context_);
     context_.flags = options.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    const Eigen::Matrix3d R = out.T_map_camera.linear();
-    per_x_ = (R.col(0) / out.camera.fx).cast<float>();
-    per_y_ = (R.col(1) / out.camera.fy).cast<float>();
-    corner_ = (R * out.camera.ray(0, 0)).cast<float>();
-    const Eigen::Vector3f origin = out.T_map_camera.translation().cast<float>();
+    const Eigen::Matrix3d R = view.T_map_camera.linear();
+    per_x_ = (R.col(0) / camera_.fx).cast<float>();
+    per_y_ = (R.col(1) / camera_.fy).cast<float>();
+    corner_ = (R * camera_.ray(0, 0)).cast<float>();
+    const Eigen::Vector3f origin = view.T_map_camera.translation().cast<float>();
     auto& ray = packet_.ray;
     for (int i = 0; i < N; ++i) {
       lane_x_[i] = static_cast<float>(i % P::cols);
@@ -85,11 +94,10 @@ class ViewTracer {
   }
 
   void trace() {
-    const Camera& camera = out_.camera;
-    const auto visible = visible_chunks(map_, camera, out_.T_map_camera);
+    const auto visible = visible_chunks(map_, camera_, view_.T_map_camera);
     std::vector<VisibleChunk> in_tile;
     for (int y = rows_.first; y < rows_.end; y += kTile)
-      for (int x = 0; x < camera.cols; x += kTile) {
+      for (int x = 0; x < camera_.cols; x += kTile) {
         in_tile.clear();
         for (const auto& v : visible)
           if (v.meets(x, y, x + kTile - 1, y + kTile - 1)) in_tile.push_back(v);
@@ -100,7 +108,7 @@ class ViewTracer {
  private:
   void trace_tile(int x0, int y0, const std::vector<VisibleChunk>& chunks) {
     for (int y = y0; y < std::min(y0 + kTile, rows_.end); y += P::rows)
-      for (int x = x0; x < std::min(x0 + kTile, out_.camera.cols); x += P::cols) {
+      for (int x = x0; x < std::min(x0 + kTile, camera_.cols); x += P::cols) {
         start(x, y);
         intersect(x, y, chunks);
         read_hits(x, y);
@@ -121,7 +129,7 @@ class ViewTracer {
       dir_y[i] = dy * scale;
       dir_z[i] = dz * scale;
     }
-    const int right = out_.camera.cols - x, bottom = rows_.end - y;
+    const int right = camera_.cols - x, bottom = rows_.end - y;
     for (int i = 0; i < N; ++i) {
       const bool inside = i % P::cols < right && i / P::cols < bottom;
       valid_[i] = inside ? -1 : 0;
@@ -140,97 +148,120 @@ class ViewTracer {
 
   void intersect(int x, int y, const std::vector<VisibleChunk>& chunks) {
     const float* tfar = lanes(packet_.ray.tfar);
-    unsigned* hit = lanes(packet_.hit.geomID);
     for (const auto& c : chunks) {
       if (!c.meets(x, y, x + P::cols - 1, y + P::rows - 1)) continue;
       if (c.distance > largest(tfar)) break;  // nothing further can be nearer than the hits
-      std::fill(hit, hit + N, RTC_INVALID_GEOMETRY_ID);
-      P::intersect(valid_, scenes_[c.chunk]->handle(), &context_, &packet_);
-      for (int i = 0; i < N; ++i)
-        if (hit[i] != RTC_INVALID_GEOMETRY_ID) chunk_[i] = c.chunk;
+      intersect_chunk(c.chunk);
     }
   }
 
-  // Unit normals of the hits, turned towards the camera; side_: -1 where that turned them. Lanes without a hit hold
-  // rubbish.
-  void turn_normals() {
-    float *nx = lanes(packet_.hit.Ng_x), *ny = lanes(packet_.hit.Ng_y), *nz = lanes(packet_.hit.Ng_z);
-    const float *dx = lanes(packet_.ray.dir_x), *dy = lanes(packet_.ray.dir_y), *dz = lanes(packet_.ray.dir_z);
+  // Traces the packet through a chunk. Few rays meet a back face first, so a filter of hits, which costs at every
+  // candidate, is left to those.
+  void intersect_chunk(std::uint32_t chunk) {
+    unsigned* hit = lanes(packet_.hit.geomID);
+    float* tfar = lanes(packet_.ray.tfar);
+    float limit[N];
+    std::copy(tfar, tfar + N, limit);
+    std::fill(hit, hit + N, RTC_INVALID_GEOMETRY_ID);
+    P::intersect(valid_, scenes_[chunk]->handle(), &context_, &packet_);
+    if (std::all_of(hit, hit + N, [](unsigned g) { return g == RTC_INVALID_GEOMETRY_ID; })) return;
+    find_facing();
+    alignas(64) int again[N] = {};
+    bool any = false;
     for (int i = 0; i < N; ++i) {
-      side_[i] = nx[i] * dx[i] + ny[i] * dy[i] + nz[i] * dz[i] > 0.f ? -1.f : 1.f;
-      const float scale = side_[i] / std::sqrt(nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i]);
-      nx[i] *= scale;
-      ny[i] *= scale;
-      nz[i] *= scale;
+      if (!options_.cull_back_faces || hit[i] == RTC_INVALID_GEOMETRY_ID || facing_now_[i] > 0) continue;
+      again[i] = -1;
+      any = true;
+      tfar[i] = limit[i];
+      hit[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (any) {
+      context_.filter = refuse_back_faces;
+      P::intersect(again, scenes_[chunk]->handle(), &context_, &packet_);
+      context_.filter = nullptr;
+      find_facing();
+    }
+    keep_hits(chunk);
+  }
+
+  // How far the hits of the chunk face their rays, see ElementHits. Lanes without a hit hold rubbish.
+  void find_facing() {
+    const float *nx = lanes(packet_.hit.Ng_x), *ny = lanes(packet_.hit.Ng_y), *nz = lanes(packet_.hit.Ng_z);
+    const float *dx = lanes(packet_.ray.dir_x), *dy = lanes(packet_.ray.dir_y), *dz = lanes(packet_.ray.dir_z);
+    for (int i = 0; i < N; ++i)
+      facing_now_[i] = -(nx[i] * dx[i] + ny[i] * dy[i] + nz[i] * dz[i]) /
+                       std::sqrt(nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i]);
+  }
+
+  // A later chunk may overwrite the packet's hits and then take them back.
+  void keep_hits(std::uint32_t chunk) {
+    const unsigned* hit = lanes(packet_.hit.geomID);
+    for (int i = 0; i < N; ++i) {
+      if (hit[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      chunk_[i] = chunk;
+      face_[i] = lanes(packet_.hit.primID)[i];
+      u_[i] = lanes(packet_.hit.u)[i];
+      v_[i] = lanes(packet_.hit.v)[i];
+      facing_[i] = facing_now_[i];
     }
   }
 
+  // Copies the packet's hits to their pixels.
   void read_hits(int x, int y) {
-    const auto& h = packet_.hit;
-    turn_normals();
     for (int i = 0; i < N; ++i) {
       if (chunk_[i] == Prediction::kNone) continue;
-      const auto p = static_cast<std::size_t>((y + i / P::cols) * out_.camera.cols + x + i % P::cols);
-      const std::uint32_t f = lanes(h.primID)[i];
-      const float u = lanes(h.u)[i], v = lanes(h.v)[i];
-      const PpmChunk& chunk = map_.table()[chunk_[i]];
-      const TexelSample texel = options_.linear_texels ? linear_sample(*chunk.geometry, *chunk.texels, f, u, v)
-                                                       : nearest_sample(*chunk.geometry, *chunk.texels, f, u, v);
-      out_.range[p] = lanes(packet_.ray.tfar)[i];
-      out_.mean[p] = side_[i] * texel.mean;  // along the turned normal
-      out_.variance[p] = texel.variance;
-      out_.normal[3 * p] = lanes(h.Ng_x)[i];
-      out_.normal[3 * p + 1] = lanes(h.Ng_y)[i];
-      out_.normal[3 * p + 2] = lanes(h.Ng_z)[i];
-      out_.chunk[p] = chunk_[i];
-      out_.face[p] = f;
-      out_.bary[2 * p] = u;
-      out_.bary[2 * p + 1] = v;
-      if (out_.color_channels > 0) read_color(chunk, f, u, v, p);
+      const auto p = static_cast<std::size_t>((y + i / P::cols) * camera_.cols + x + i % P::cols);
+      hits_.range[p] = lanes(packet_.ray.tfar)[i];
+      hits_.u[p] = u_[i];
+      hits_.v[p] = v_[i];
+      hits_.facing[p] = facing_[i];
+      hits_.chunk[p] = chunk_[i];
+      hits_.face[p] = face_[i];
     }
-  }
-
-  void read_color(const PpmChunk& chunk, std::uint32_t f, float u, float v, std::size_t p) {
-    const ColorSample color = options_.linear_texels ? linear_color(*chunk.geometry, *chunk.texels, f, u, v)
-                                                     : nearest_color(*chunk.geometry, *chunk.texels, f, u, v);
-    const auto n = static_cast<std::size_t>(out_.color_channels);
-    std::copy_n(color.mean.begin(), n, &out_.color[n * p]);
-    out_.color_variance[p] = color.variance;
   }
 
   const PpmMap& map_;
   const std::vector<const EmbreeScene*>& scenes_;
   const EmbreeViewOptions& options_;
   const Rows rows_;
-  Prediction& out_;
+  const Prediction& view_;
+  const Camera& camera_;
+  ElementHits& hits_;
   RTCIntersectContext context_;
   Eigen::Vector3f corner_, per_x_,
       per_y_;                    // direction of pixel (x, y) before it is made unit: corner + x per_x + y per_y
   float lane_x_[N], lane_y_[N];  // pixels of a packet from its first
   typename P::RayHit packet_;
   alignas(64) int valid_[N];
-  float side_[N];
-  std::uint32_t chunk_[N];
+  float facing_now_[N];
+  std::uint32_t chunk_[N], face_[N];  // the nearest hits so far
+  float u_[N], v_[N], facing_[N];
 };
 
 }  // namespace
 
-void trace_view(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
-                const Rows& rows, Prediction& out) {
-  PPM_CHECK(out.color_channels == 0 || out.color_channels == map.color_channels(),
-            "a view with {} channels of colour of a map with {}", out.color_channels, map.color_channels());
+void trace_hits(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
+                const Rows& rows, const Prediction& view, ElementHits& hits) {
   switch (options.packet) {
     case 1:
-      return ViewTracer<1>(map, scenes, options, rows, out).trace();
+      return ViewTracer<1>(map, scenes, options, rows, view, hits).trace();
     case 4:
-      return ViewTracer<4>(map, scenes, options, rows, out).trace();
+      return ViewTracer<4>(map, scenes, options, rows, view, hits).trace();
     case 8:
-      return ViewTracer<8>(map, scenes, options, rows, out).trace();
+      return ViewTracer<8>(map, scenes, options, rows, view, hits).trace();
     case 16:
-      return ViewTracer<16>(map, scenes, options, rows, out).trace();
+      return ViewTracer<16>(map, scenes, options, rows, view, hits).trace();
     default:
       PPM_CHECK(false, "packets of {} rays", options.packet);
   }
+}
+
+void trace_view(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
+                const Rows& rows, Prediction& out) {
+  ElementView view;
+  view.start(map, options.linear_texels, static_cast<std::size_t>(out.camera.pixels()));
+  trace_hits(map, scenes, options, rows, out, view.hits());
+  view.fill(out, rows, out);
 }
 
 }  // namespace ppm

@@ -1,5 +1,6 @@
 // What a view of a mesh map costs by ray casting, and what the acceleration structures cost:
 // docs/results/embree_scenes.md.
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <embree3/rtcore.h>
@@ -105,6 +106,25 @@ void view(benchmark::State& state, EmbreeViewOptions options, EmbreeOptions scen
   report(state, hits);
   state.counters["chunks"] = static_cast<double>(map->table().size());
   state.counters["MB"] = static_cast<double>(scenes.bytes()) / 1e6;
+}
+
+// Hits alone, attributes deferred: what a node costs whose view is compared at few pixels.
+void hits(benchmark::State& state, double cell_m) {
+  const auto map = room(static_cast<int>(state.range(0)), cell_m);
+  const Workers workers(1);
+  EmbreeScenes scenes({});
+  scenes.update({map.get()}, workers);
+  Prediction view;
+  ElementView found;
+  int i = 0;
+  for (auto _ : state) {
+    view.reset_deferred(kCamera, 1, pose(i++ % 20));
+    found.start(*map, true, static_cast<std::size_t>(kCamera.pixels()));
+    trace_hits(*map, scenes.of(*map), {}, all_rows(kCamera), view, found.hits());
+    benchmark::DoNotOptimize(found.hits().range.data());
+  }
+  const auto& chunk = found.hits().chunk;
+  report(state, chunk.size() - static_cast<std::size_t>(std::count(chunk.begin(), chunk.end(), Prediction::kNone)));
 }
 
 // The alternative: one scene of instances of the chunks' scenes for each map. Ranges and ids only, no texels.
@@ -230,10 +250,11 @@ void register_all() {
   };
   using Build = EmbreeOptions::Build;
   for (int packet : {1, 4, 8, 16}) add_view("chunks_1m/packet:" + std::to_string(packet), {.packet = packet}, {}, 1.0);
+  add("chunks_1m/hits_alone", [](benchmark::State& st) { hits(st, 1.0); })->Arg(20000)->Arg(100000);
   add_view("chunks_1m/incoherent", {.coherent = false}, {}, 1.0);
   add_view("chunks_1m/nearest_texels", {.linear_texels = false}, {}, 1.0);
   add_view("chunks_1m/fast_test", {}, {.robust = false}, 1.0);
-  add_view("chunks_1m/backfaces_hit", {}, {.cull_back_faces = false}, 1.0);
+  add_view("chunks_1m/backfaces_hit", {.cull_back_faces = false}, {}, 1.0);
   add_view("chunks_1m/build_low", {}, {.build = Build::low}, 1.0);
   add_view("chunks_1m/build_high", {}, {.build = Build::high}, 1.0);
   for (double cell : {0.5, 2.0, 50.0}) add_view("chunks_" + std::to_string(cell).substr(0, 4) + "m", {}, {}, cell);

@@ -5,6 +5,7 @@
 #include "framework/graph/harness.hpp"
 #include "framework/slam/frame.hpp"
 #include "modules/builtin.hpp"
+#include "tests/prediction/whole_views.hpp"
 #include "tests/support/mesh_map.hpp"
 
 using namespace ppm;
@@ -39,7 +40,7 @@ std::vector<PredictionHandle> predictions(const std::string& params, std::vector
     h.belief().map[i] = maps[i % maps.size()];
   }
   h.tick();
-  return h.belief().prediction;
+  return whole_views(h.belief());
 }
 
 std::string bytes_of(const std::vector<PredictionHandle>& all) {

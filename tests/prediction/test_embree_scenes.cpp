@@ -90,3 +90,24 @@ TEST_CASE("an emptied chunk has no scene, and asking for an unknown map is an er
   CHECK(scenes.of(*empty)[0] == nullptr);
   CHECK_THROWS_AS(scenes.of(*map), InternalError);
 }
+
+TEST_CASE("objects with equal options share scenes, for as long as one of them uses them") {
+  Workers workers(1);
+  EmbreeScenes first({}), second({}), other({.robust = false});
+  auto map = floor_of_chunks();
+  first.update({map.get()}, workers);
+  second.update({map.get()}, workers);
+  other.update({map.get()}, workers);
+  CHECK(first.built() == non_empty(*map));
+  CHECK(second.built() == 0);
+  CHECK(second.of(*map) == first.of(*map));
+  CHECK(other.built() == non_empty(*map));
+  first.update({}, workers);
+  CHECK(second.of(*map)[0]->handle() != nullptr);
+  first.update({map.get()}, workers);
+  CHECK(first.built() == 0);
+  first.update({}, workers);
+  second.update({}, workers);
+  first.update({map.get()}, workers);
+  CHECK(first.built() == non_empty(*map));
+}

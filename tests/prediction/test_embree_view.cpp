@@ -72,7 +72,7 @@ void compare(const PpmMap& map, const Pose& pose, const EmbreeViewOptions& view,
   const Prediction p = view_of(map, kCamera, pose, view, options);
   int hits = 0, same = 0;
   for (std::size_t i = 0; i < p.range.size(); ++i) {
-    const OracleHit exact = nearest_hit(all_hits(map, pose.translation(), p.direction(i), options.cull_back_faces, 0));
+    const OracleHit exact = nearest_hit(all_hits(map, pose.translation(), p.direction(i), view.cull_back_faces, 0));
     hits += p.hit(i);
     if (exact.chunk == p.chunk[i] && (!p.hit(i) || exact.face == p.face[i])) {
       ++same;
@@ -82,7 +82,7 @@ void compare(const PpmMap& map, const Pose& pose, const EmbreeViewOptions& view,
     }
     INFO("pixel " << i << " chunk " << p.chunk[i] << " face " << p.face[i] << " range " << p.range[i]
                   << " oracle chunk " << exact.chunk << " face " << exact.face << " range " << exact.range);
-    CHECK(explained(map, p, i, options.cull_back_faces));
+    CHECK(explained(map, p, i, view.cull_back_faces));
   }
   CHECK(hits > 100);
   CHECK(same > 0.99 * static_cast<double>(p.range.size()));
@@ -104,7 +104,7 @@ TEST_CASE("views agree with brute force on triangle soups") {
   EmbreeViewOptions view;
   view.packet = packet;
   EmbreeOptions options;
-  options.cull_back_faces = cull;
+  view.cull_back_faces = cull;
   options.robust = robust;
   PpmSettings settings;
   settings.cell_size_m = 4.0;

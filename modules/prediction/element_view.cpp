@@ -1,0 +1,99 @@
+#include "modules/prediction/element_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/core/error.hpp"
+#include "modules/maps/ppm/color_sample.hpp"
+#include "modules/maps/ppm/ppm_map.hpp"
+#include "modules/maps/ppm/texel_sample.hpp"
+
+namespace ppm {
+
+namespace {
+
+TexelSample texel_at(bool linear, const PpmChunk& chunk, std::uint32_t f, float u, float v) {
+  return linear ? linear_sample(*chunk.geometry, *chunk.texels, f, u, v)
+                : nearest_sample(*chunk.geometry, *chunk.texels, f, u, v);
+}
+
+ColorSample color_at(bool linear, const PpmChunk& chunk, std::uint32_t f, float u, float v) {
+  return linear ? linear_color(*chunk.geometry, *chunk.texels, f, u, v)
+                : nearest_color(*chunk.geometry, *chunk.texels, f, u, v);
+}
+
+}  // namespace
+
+void ElementHits::reset(std::size_t pixels) {
+  for (auto* array : {&range, &u, &v, &facing}) array->resize(pixels);
+  face.resize(pixels);
+  chunk.assign(pixels, Prediction::kNone);
+}
+
+void ElementView::start(const PpmMap& map, bool linear_texels, std::size_t pixels) {
+  map_ = &map;
+  linear_texels_ = linear_texels;
+  hits_.reset(pixels);
+}
+
+void ElementView::sample(const Prediction&, std::span<const std::uint32_t> pixels, ViewSamples& out) const {
+  constexpr auto least = static_cast<float>(Prediction::kMinCosine);
+  const auto channels = static_cast<std::size_t>(out.color_channels);
+  std::fill(out.color.begin(), out.color.end(), 0.0f);
+  std::fill(out.color_variance.begin(), out.color_variance.end(), 0.0f);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::size_t p = pixels[i];
+    if (hits_.chunk[p] == Prediction::kNone) {
+      out.range[i] = Prediction::kMiss, out.variance[i] = 0, out.cosine[i] = 1;
+      continue;
+    }
+    const PpmChunk& chunk = map_->table()[hits_.chunk[p]];
+    const TexelSample texel = texel_at(linear_texels_, chunk, hits_.face[p], hits_.u[p], hits_.v[p]);
+    const float c = std::max(std::abs(hits_.facing[p]), least);
+    out.range[i] = hits_.range[p] - (hits_.facing[p] < 0 ? -texel.mean : texel.mean) / c;
+    out.variance[i] = texel.variance / (c * c);
+    out.cosine[i] = c;
+    if (channels == 0) continue;
+    const ColorSample color = color_at(linear_texels_, chunk, hits_.face[p], hits_.u[p], hits_.v[p]);
+    std::copy_n(color.mean.begin(), channels, &out.color[channels * i]);
+    out.color_variance[i] = color.variance;
+  }
+}
+
+void ElementView::fill(const Prediction& view, const Rows& rows, Prediction& out) const {
+  PPM_CHECK(view.color_channels == 0 || view.color_channels == map_->color_channels(),
+            "a view with {} channels of colour of a map with {}", view.color_channels, map_->color_channels());
+  const auto cols = static_cast<std::size_t>(view.camera.cols);
+  std::uint32_t last_chunk = Prediction::kNone, last_face = Prediction::kNone;
+  Eigen::Vector3f normal;  // of the last face: often the next pixel's too
+  for (auto p = static_cast<std::size_t>(rows.first) * cols; p < static_cast<std::size_t>(rows.end) * cols; ++p) {
+    const std::uint32_t c = hits_.chunk[p], f = hits_.face[p];
+    if (c == Prediction::kNone) continue;
+    if (c != last_chunk || f != last_face) normal = map_->table()[c].geometry->face_normal(f);
+    last_chunk = c;
+    last_face = f;
+    fill_pixel(p, normal, out);
+  }
+}
+
+void ElementView::fill_pixel(std::size_t p, const Eigen::Vector3f& normal, Prediction& out) const {
+  const PpmChunk& chunk = map_->table()[hits_.chunk[p]];
+  const std::uint32_t f = hits_.face[p];
+  const float u = hits_.u[p], v = hits_.v[p], side = hits_.facing[p] < 0 ? -1.f : 1.f;
+  const TexelSample texel = texel_at(linear_texels_, chunk, f, u, v);
+  out.range[p] = hits_.range[p];
+  out.mean[p] = side * texel.mean;  // along the turned normal
+  out.variance[p] = texel.variance;
+  for (int k = 0; k < 3; ++k) out.normal[3 * p + static_cast<std::size_t>(k)] = side * normal[k];
+  out.chunk[p] = hits_.chunk[p];
+  out.face[p] = f;
+  out.bary[2 * p] = u;
+  out.bary[2 * p + 1] = v;
+  if (out.color_channels == 0) return;
+  const ColorSample color = color_at(linear_texels_, chunk, f, u, v);
+  const auto n = static_cast<std::size_t>(out.color_channels);
+  std::copy_n(color.mean.begin(), n, &out.color[n * p]);
+  out.color_variance[p] = color.variance;
+}
+
+}  // namespace ppm
