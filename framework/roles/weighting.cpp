@@ -17,15 +17,6 @@ double entropy(const std::vector<double>& log_weight) {
 
 }  // namespace
 
-ViewScore& ViewScore::operator+=(const ViewScore& part) {
-  log_likelihood += part.log_likelihood;
-  hits += part.hits;
-  misses += part.misses;
-  outliers += part.outliers;
-  residual_sum += part.residual_sum;
-  return *this;
-}
-
 Weighting::Weighting(int pixels) : belief(this, {{"prediction"}, {}, {}}), pixels_(pixels) {
   params_.add("pixels", pixels_)
       .range(0, 1e8)

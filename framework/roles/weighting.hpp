@@ -9,18 +9,9 @@
 #include "framework/slam/frame.hpp"
 #include "framework/slam/measured_pixels.hpp"
 #include "framework/slam/pixel_block.hpp"
+#include "framework/slam/view_score.hpp"
 
 namespace ppm {
-
-/// How well one particle's view, or a part of it, explains a frame.
-struct ViewScore {
-  double log_likelihood = 0;
-  std::size_t hits = 0, misses = 0;  ///< compared pixels where the map shows something, and nothing
-  std::size_t outliers = 0;          ///< hits that the likelihood holds for something else than the map's surface
-  double residual_sum = 0;           ///< m, of |measured - expected| over the hits
-
-  ViewScore& operator+=(const ViewScore& part);
-};
 
 /// Base of every `weighting.*`: adds the log likelihood of a frame to every particle and normalises. It knows no map: a
 /// likelihood compares ranges, and what else a prediction says.

@@ -1,8 +1,7 @@
-#include <cmath>
-
 #include "framework/graph/registry.hpp"
 #include "framework/roles/weighting.hpp"
 #include "modules/weighting/range_gaussian.hpp"
+#include "modules/weighting/range_kernels.hpp"
 
 namespace {
 
@@ -21,19 +20,7 @@ class GaussianWeighting final : public Weighting {
 
  protected:
   ViewScore score(const PixelBlock& pixels) const override {
-    ViewScore s;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      if (!pixels.hit(i)) {
-        ++s.misses;
-        continue;
-      }
-      const double r = pixels.residual(i), variance = range_.variance(pixels, i);
-      s.log_likelihood += log_normal(r, variance);
-      s.outliers += r * r > 9.0 * variance;
-      s.residual_sum += std::abs(r);
-      ++s.hits;
-    }
-    return s;
+    return gaussian_score(range_arrays(pixels), range_.of == RangeGaussian::Variance::texel_and_sensor);
   }
 
  private:

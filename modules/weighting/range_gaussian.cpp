@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "modules/weighting/range_kernels.hpp"
+
 namespace ppm {
 
 void RangeGaussian::declare(Params& params) {
@@ -10,9 +12,8 @@ void RangeGaussian::declare(Params& params) {
 }
 
 double RangeGaussian::variance(const PixelBlock& pixels, std::size_t i) const {
-  constexpr double kLeast = 1e-10;  // m^2: a map may be certain, but not beyond 10 micrometres
   const double sensor = of == Variance::texel_and_sensor ? pixels.variance[i] : 0.0;
-  return std::max(pixels.expected.variance[i] + sensor, kLeast);
+  return std::max(pixels.expected.variance[i] + sensor, static_cast<double>(kLeastRangeVariance));
 }
 
 }  // namespace ppm

@@ -3,6 +3,7 @@
 
 #include "framework/config/params.hpp"
 #include "framework/slam/pixel_block.hpp"
+#include "modules/weighting/range_kernels.hpp"
 
 namespace ppm {
 
@@ -20,6 +21,10 @@ struct RangeMixture {
   /// Declares the members as parameters.
   void declare(Params& params);
 
+  /// For mixture_score(), which gives the sum of the logs over a block.
+  MixtureTerms terms() const {
+    return {outlier_share / max_range, miss_density, 1 - outlier_share, model_sigma * model_sigma};
+  }
   /// Densities of a range, 1/m, each times its part's prior probability.
   struct Parts {
     double surface, outlier;

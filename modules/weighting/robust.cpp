@@ -1,7 +1,6 @@
-#include <cmath>
-
 #include "framework/graph/registry.hpp"
 #include "framework/roles/weighting.hpp"
+#include "modules/weighting/range_kernels.hpp"
 #include "modules/weighting/range_mixture.hpp"
 
 namespace {
@@ -31,22 +30,8 @@ class RobustWeighting final : public Weighting {
 
  protected:
   ViewScore score(const PixelBlock& pixels) const override {
-    const double log_miss = std::log(range_.miss_density);
-    double sum = 0;
-    ViewScore s;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      if (!pixels.hit(i)) {
-        ++s.misses;
-        sum += log_miss;
-        continue;
-      }
-      const auto density = range_.parts(pixels, i);
-      sum += std::log(density.sum());
-      s.outliers += density.outlier > density.surface;
-      s.residual_sum += std::abs(pixels.residual(i));
-      ++s.hits;
-    }
-    s.log_likelihood = temper_ * sum;
+    ViewScore s = mixture_score(range_arrays(pixels), range_.terms());
+    s.log_likelihood *= temper_;
     return s;
   }
 
