@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -141,4 +142,16 @@ TEST_CASE("colour cannot be weighed where the map or the frame has none") {
   const auto colored = view_of(kTiny, 2.0f, 3, expected(1, 0), 4e-4f), plain = view_of(kTiny, 2.0f, 0, {}, 0);
   CHECK_THROWS_WITH(log_odds(module, "{}", frame_of(kTiny, ramp()), plain, plain), Catch::Contains("set `color`"));
   CHECK_THROWS_WITH(log_odds(module, "{}", frame_of(kTiny, {}), colored, colored), Catch::Contains("`color: true`"));
+}
+
+TEST_CASE("the gain is that of the whole view") {
+  const Camera camera{60, 40, 1e5, 1e5, 29.5, 19.5};
+  const auto n = static_cast<std::size_t>(camera.pixels());
+  const auto frame = frame_of(camera, std::vector<std::uint8_t>(3 * n, 128));
+  std::vector<float> right(3 * n, 128 / 255.f), darker_above = right;
+  std::fill_n(darker_above.begin(), 3 * 1100, 100 / 255.f);  // less than half of the pixels: the median is 1
+  const std::string module = GENERATE("weighting.gaussian_color", "weighting.robust_color");
+  const double odds = log_odds(module, "{exposure: gain}", frame, view_of(camera, 2.0f, 3, right, 4e-4f),
+                               view_of(camera, 2.0f, 3, darker_above, 4e-4f));
+  CHECK(odds > 10);
 }

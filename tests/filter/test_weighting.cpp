@@ -118,6 +118,16 @@ TEST_CASE("weighting.robust is the tempered mixture, with a density for misses")
   CHECK(odds == Approx(0.5 * expected).epsilon(1e-4));
 }
 
+TEST_CASE("every block of a view counts, the last one too") {
+  const Camera camera{60, 40, 1e5, 1e5, 29.5, 19.5}, pixel{1, 1, 1e5, 1e5, 0, 0};  // all rays along the optical axis
+  const std::string module = GENERATE("weighting.gaussian", "weighting.robust");
+  auto odds = [&](const Camera& c) {
+    return log_odds(module, module == "weighting.robust" ? "{pixels: 0}" : "{}", wall_frame(c, 2.0f, 0.02f),
+                    wall_view(c, kSomewhere, 2.001, 0.0f, 4e-4f), wall_view(c, kSomewhere, 2.002, 0.0f, 4e-4f));
+  };
+  CHECK(odds(camera) == Approx(2400 * odds(pixel)).epsilon(2e-3));
+}
+
 TEST_CASE("the particle that is right wins") {
   const std::string module = GENERATE("weighting.gaussian", "weighting.robust");
   const Camera camera{40, 30, 40, 40, 19.5, 14.5};
