@@ -36,28 +36,29 @@ void ElementView::start(const PpmMap& map, bool linear_texels, std::size_t pixel
   hits_.reset(pixels);
 }
 
-void ElementView::sample(const Prediction&, std::span<const std::uint32_t> pixels, ViewSamples& out) const {
-  constexpr auto least = static_cast<float>(Prediction::kMinCosine);
+void sample_hit(const PpmMap& map, bool linear_texels, const ElementHits& hits, std::size_t at, std::size_t i,
+                ViewSamples& out) {
   const auto channels = static_cast<std::size_t>(out.color_channels);
-  std::fill(out.color.begin(), out.color.end(), 0.0f);
-  std::fill(out.color_variance.begin(), out.color_variance.end(), 0.0f);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::size_t p = pixels[i];
-    if (hits_.chunk[p] == Prediction::kNone) {
-      out.range[i] = Prediction::kMiss, out.variance[i] = 0, out.cosine[i] = 1;
-      continue;
-    }
-    const PpmChunk& chunk = map_->table()[hits_.chunk[p]];
-    const TexelSample texel = texel_at(linear_texels_, chunk, hits_.face[p], hits_.u[p], hits_.v[p]);
-    const float c = std::max(std::abs(hits_.facing[p]), least);
-    out.range[i] = hits_.range[p] - (hits_.facing[p] < 0 ? -texel.mean : texel.mean) / c;
-    out.variance[i] = texel.variance / (c * c);
-    out.cosine[i] = c;
-    if (channels == 0) continue;
-    const ColorSample color = color_at(linear_texels_, chunk, hits_.face[p], hits_.u[p], hits_.v[p]);
-    std::copy_n(color.mean.begin(), channels, &out.color[channels * i]);
-    out.color_variance[i] = color.variance;
+  if (hits.chunk[at] == Prediction::kNone) {
+    out.range[i] = Prediction::kMiss, out.variance[i] = 0, out.cosine[i] = 1;
+    std::fill_n(out.color.begin() + static_cast<std::ptrdiff_t>(channels * i), channels, 0.0f);
+    if (channels > 0) out.color_variance[i] = 0;
+    return;
   }
+  const PpmChunk& chunk = map.table()[hits.chunk[at]];
+  const TexelSample texel = texel_at(linear_texels, chunk, hits.face[at], hits.u[at], hits.v[at]);
+  const float c = std::max(std::abs(hits.facing[at]), static_cast<float>(Prediction::kMinCosine));
+  out.range[i] = hits.range[at] - (hits.facing[at] < 0 ? -texel.mean : texel.mean) / c;
+  out.variance[i] = texel.variance / (c * c);
+  out.cosine[i] = c;
+  if (channels == 0) return;
+  const ColorSample color = color_at(linear_texels, chunk, hits.face[at], hits.u[at], hits.v[at]);
+  std::copy_n(color.mean.begin(), channels, &out.color[channels * i]);
+  out.color_variance[i] = color.variance;
+}
+
+void ElementView::sample(const Prediction&, std::span<const std::uint32_t> pixels, ViewSamples& out) const {
+  for (std::size_t i = 0; i < pixels.size(); ++i) sample_hit(*map_, linear_texels_, hits_, pixels[i], i, out);
 }
 
 void ElementView::fill(const Prediction& view, const Rows& rows, Prediction& out) const {

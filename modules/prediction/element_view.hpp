@@ -21,6 +21,10 @@ struct ElementHits {
   void reset(std::size_t pixels);
 };
 
+/// Sample i of a view from hit `at` of the record; colour where `out` has it. The map was looked at for the record.
+void sample_hit(const PpmMap& map, bool linear_texels, const ElementHits& hits, std::size_t at, std::size_t i,
+                ViewSamples& out);
+
 /// A deferred view of a mesh map, made of such a record: attributes are read from the map's texels when asked for.
 class ElementView final : public DeferredView {
  public:

@@ -41,6 +41,10 @@ class EmbreePredictor final : public ViewPredictor {
         .doc(
             "What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it "
             "there.");
+    params_.add_choice("rays", rays_, {{"image", Rays::image}, {"compared", Rays::compared}})
+        .doc(
+            "Which pixels get a ray: all of the image, or, when they are asked for, those that a weighting compares: "
+            "cheaper where it compares few of a full image.");
     params_.add_choice("texel", view_.linear_texels, {{"nearest", false}, {"linear", true}})
         .doc("Mean and variance at a hit: of the nearest texel, or interpolated between texels.");
   }
@@ -66,12 +70,18 @@ class EmbreePredictor final : public ViewPredictor {
   }
 
   std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const override {
+    if (rays_ == Rays::compared) {
+      auto rays = on_demand_.take();
+      rays->start(as_ppm(map), scenes_->of(as_ppm(map)), view_, out);
+      return rays;
+    }
     auto view = views_.take();
     view->start(as_ppm(map), view_.linear_texels, static_cast<std::size_t>(out.camera.pixels()));
     return view;
   }
 
   void predict(const Map& map, const Rows& rows, Prediction& out, int) const override {
+    if (rays_ == Rays::compared) return;
     trace_hits(as_ppm(map), scenes_->of(as_ppm(map)), view_, rows, out,
                static_cast<ElementView&>(*out.deferred).hits());
   }
@@ -80,7 +90,9 @@ class EmbreePredictor final : public ViewPredictor {
   using Build = EmbreeOptions::Build;
   EmbreeOptions scene_;
   EmbreeViewOptions view_;
+  enum class Rays { image, compared } rays_ = Rays::image;
   mutable Pool<ElementView> views_;
+  mutable Pool<EmbreeRays> on_demand_;
   std::unique_ptr<EmbreeScenes> scenes_;  // made on first use: the options are known only then
 };
 

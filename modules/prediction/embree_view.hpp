@@ -1,7 +1,9 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "framework/slam/prediction.hpp"
+#include "modules/maps/ppm/visible_chunks.hpp"
 #include "modules/prediction/element_view.hpp"
 #include "modules/prediction/embree_scene.hpp"
 
@@ -28,5 +30,22 @@ void trace_hits(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes
 /// `out` has it; its channels must be the map's then.
 void trace_view(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
                 const Rows& rows, Prediction& out);
+
+/// A deferred view that traces rays only through the pixels that it is asked for: where a likelihood compares few of an
+/// image. Pixels are traced with their neighbours among those that are asked for.
+class EmbreeRays final : public DeferredView {
+ public:
+  /// Map and scenes are not owned, see DeferredView. view: its camera and pose are read.
+  void start(const PpmMap& map, const std::vector<const EmbreeScene*>& scenes, const EmbreeViewOptions& options,
+             const Prediction& view);
+  void sample(const Prediction& view, std::span<const std::uint32_t> pixels, ViewSamples& out) const override;
+  void fill(const Prediction& view, const Rows& rows, Prediction& out) const override;
+
+ private:
+  const PpmMap* map_ = nullptr;
+  const std::vector<const EmbreeScene*>* scenes_ = nullptr;
+  EmbreeViewOptions options_;
+  std::vector<VisibleChunk> visible_;
+};
 
 }  // namespace ppm

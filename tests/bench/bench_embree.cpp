@@ -127,6 +127,37 @@ void hits(benchmark::State& state, double cell_m) {
   report(state, chunk.size() - static_cast<std::size_t>(std::count(chunk.begin(), chunk.end(), Prediction::kNone)));
 }
 
+// Samples of some pixels on a regular grid, by rays through those alone or by a view of the whole image.
+void samples(benchmark::State& state, bool compared_alone) {
+  const auto map = room(static_cast<int>(state.range(0)), 1.0);
+  const Workers workers(1);
+  EmbreeScenes scenes({});
+  scenes.update({map.get()}, workers);
+  const int step = static_cast<int>(state.range(1));
+  std::vector<std::uint32_t> pixels;
+  for (int y = 0; y < kCamera.rows; y += step)
+    for (int x = 0; x < kCamera.cols; x += step) pixels.push_back(static_cast<std::uint32_t>(y * kCamera.cols + x));
+  Prediction view;
+  EmbreeRays rays;
+  ElementView image;
+  ViewSamples out;
+  out.resize(pixels.size());
+  int i = 0;
+  for (auto _ : state) {
+    view.reset_deferred(kCamera, 1, pose(i++ % 20));
+    if (compared_alone) {
+      rays.start(*map, scenes.of(*map), {}, view);
+      rays.sample(view, pixels, out);
+    } else {
+      image.start(*map, true, static_cast<std::size_t>(kCamera.pixels()));
+      trace_hits(*map, scenes.of(*map), {}, all_rows(kCamera), view, image.hits());
+      image.sample(view, pixels, out);
+    }
+    benchmark::DoNotOptimize(out.range.data());
+  }
+  state.counters["pixels"] = static_cast<double>(pixels.size());
+}
+
 // The alternative: one scene of instances of the chunks' scenes for each map. Ranges and ids only, no texels.
 class InstanceScene {
  public:
@@ -251,6 +282,9 @@ void register_all() {
   using Build = EmbreeOptions::Build;
   for (int packet : {1, 4, 8, 16}) add_view("chunks_1m/packet:" + std::to_string(packet), {.packet = packet}, {}, 1.0);
   add("chunks_1m/hits_alone", [](benchmark::State& st) { hits(st, 1.0); })->Arg(20000)->Arg(100000);
+  for (bool alone : {true, false})
+    add(alone ? "samples/compared_alone" : "samples/of_image", [=](benchmark::State& st) { samples(st, alone); })
+        ->ArgsProduct({{20000, 100000}, {1, 2, 5, 10, 20}});
   add_view("chunks_1m/incoherent", {.coherent = false}, {}, 1.0);
   add_view("chunks_1m/nearest_texels", {.linear_texels = false}, {}, 1.0);
   add_view("chunks_1m/fast_test", {}, {.robust = false}, 1.0);

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "framework/core/se3.hpp"
 #include "framework/graph/harness.hpp"
@@ -137,4 +138,30 @@ TEST_CASE("prediction.embree refuses packets that Embree does not know") {
   const Registry registry = builtin();
   CHECK_THROWS_AS(Harness(registry, "prediction.embree", "{packet: 5}"), ConfigError);
   CHECK_THROWS_AS(Harness(registry, "prediction.embree", "{backfaces: maybe}"), ConfigError);
+}
+
+TEST_CASE("rays through the compared pixels alone find what the image shows, whatever the packet") {
+  const auto map = make_map(height_field(12, 2.f, [](float x, float y) { return 1.5f + 0.2f * std::sin(3 * x + y); }));
+  const std::string image = bytes_of(predictions("{}", {map}, 3));
+  for (const std::string packet : {"1", "4", "8", "16"})
+    CHECK(bytes_of(predictions("{rays: compared, packet: " + packet + "}", {map}, 3, 2)) == image);
+  // Few pixels out of order of the packets: each as in the whole view.
+  const Registry registry = builtin();
+  Harness h(registry, "prediction.embree", "{rays: compared}");
+  h.input<Frame>("frame", frame_of(kCamera));
+  h.belief().init(1, Pose::Identity(), map);
+  h.tick();
+  const auto& view = *h.belief().prediction[0];
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(kCamera.pixels())), some;
+  std::iota(all.begin(), all.end(), 0u);
+  for (std::uint32_t p = 3; p < all.size(); p += 5 + p % 7) some.push_back(p);
+  ViewSamples of_all, of_some;
+  of_all.resize(all.size());
+  of_some.resize(some.size());
+  view.sample(all, of_all);
+  view.sample(some, of_some);
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    CHECK(of_some.range[i] == of_all.range[some[i]]);
+    CHECK(of_some.variance[i] == of_all.variance[some[i]]);
+  }
 }
