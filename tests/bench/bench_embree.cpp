@@ -2,84 +2,33 @@
 // docs/results/embree_scenes.md.
 #include <algorithm>
 #include <benchmark/benchmark.h>
-#include <cmath>
 #include <embree3/rtcore.h>
 #include <map>
 #include <memory>
 #include <vector>
 
-#include "framework/core/rng.hpp"
-#include "framework/core/se3.hpp"
+#include "modules/maps/ppm/meshed_room.hpp"
 #include "modules/prediction/embree_scenes.hpp"
 #include "modules/prediction/embree_view.hpp"
-#include "tests/support/mesh_map.hpp"
 
 using namespace ppm;
-using test::TriangleMesh;
 
 namespace {
 
 const Camera kCamera{176, 144, 150, 150, 87.5, 71.5};
 
-// A grid of n x n squares over the parallelogram o + s a + t b; free space lies on the side of a x b. Bumps of 2 cm.
-void add_patch(TriangleMesh& mesh, Eigen::Vector3f o, Eigen::Vector3f a, Eigen::Vector3f b, float edge) {
-  const int na = static_cast<int>(std::ceil(a.norm() / edge)), nb = static_cast<int>(std::ceil(b.norm() / edge));
-  const Eigen::Vector3f normal = a.cross(b).normalized();
-  const auto first = static_cast<std::uint32_t>(mesh.position.size());
-  auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(j * (na + 1) + i); };
-  for (int j = 0; j <= nb; ++j)
-    for (int i = 0; i <= na; ++i) {
-      const Eigen::Vector3f p =
-          o + static_cast<float>(i) / static_cast<float>(na) * a + static_cast<float>(j) / static_cast<float>(nb) * b;
-      mesh.position.push_back(p + 0.02f * std::sin(7 * p.sum()) * normal);
-    }
-  for (int j = 0; j < nb; ++j)
-    for (int i = 0; i < na; ++i) {
-      mesh.face.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
-      mesh.face.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-}
-
-// The six sides of a box, seen from outside, or from inside.
-void add_box(TriangleMesh& mesh, Eigen::Vector3f o, Eigen::Vector3f size, float edge, bool inside) {
-  for (int k = 0; k < 3; ++k) {
-    Eigen::Vector3f a = Eigen::Vector3f::Zero(), b = a, c = a;
-    a[(k + 1) % 3] = size[(k + 1) % 3];
-    b[(k + 2) % 3] = size[(k + 2) % 3];
-    c[k] = size[k];
-    add_patch(mesh, o, inside ? a : b, inside ? b : a, edge);
-    add_patch(mesh, o + c, inside ? b : a, inside ? a : b, edge);
-  }
-}
-
-// A room of 6 x 5 x 2.7 m with ten boxes, about `faces` triangles, cut into cells of `cell_m`.
+// The meshed room, cut into cells of `cell_m`.
 std::shared_ptr<const PpmMap> room(int faces, double cell_m) {
   static std::map<std::pair<int, double>, std::shared_ptr<const PpmMap>> made;
   auto& map = made[{faces, cell_m}];
   if (map) return map;
-  const float edge = std::sqrt(2 * 150.f / static_cast<float>(faces));
-  TriangleMesh mesh;
-  add_box(mesh, {0, 0, 0}, {6, 5, 2.7f}, edge, true);
-  Rng rng(5, 0, 0, 0);
-  for (int i = 0; i < 10; ++i) {
-    auto u = [&](double a, double b) { return static_cast<float>(a + (b - a) * rng.uniform()); };
-    add_box(mesh, {u(0.2, 5), u(0.2, 4), 0.1f}, {u(0.3, 0.9), u(0.3, 0.9), u(0.3, 1.2)}, edge, false);
-  }
   PpmSettings settings;
   settings.cell_size_m = cell_m;
-  return map = test::make_map(mesh, settings);
+  return map = map_of(meshed_room(faces), settings, [](const Eigen::Vector3f&) { return 0.f; }, 1e-4f);
 }
 
 Pose pose(int i) {
-  const double angle = 0.3 * i;
-  Pose look = Pose::Identity();
-  look.translation() << 3 + std::cos(angle), 2.5 + std::sin(angle), 1.5;
-  Eigen::Matrix3d R;
-  R.col(2) = Eigen::Vector3d(std::cos(angle), std::sin(angle), -0.2).normalized();
-  R.col(0) = R.col(2).cross(Eigen::Vector3d::UnitZ()).normalized();
-  R.col(1) = R.col(2).cross(R.col(0));
-  look.linear() = R;
-  return look;
+  return room_view(0.3 * i);
 }
 
 void report(benchmark::State& state, std::size_t hits) {

@@ -1,39 +1,19 @@
 #pragma once
-#include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <vector>
 
 #include "framework/core/rng.hpp"
 #include "modules/maps/ppm/ppm_edit.hpp"
+#include "modules/maps/ppm/triangle_mesh.hpp"
 
 namespace ppm::test {
 
-/// Triangles with shared vertices, for building maps.
-struct TriangleMesh {
-  std::vector<Eigen::Vector3f> position;
-  std::vector<std::array<std::uint32_t, 3>> face;  ///< counter-clockwise seen from free space
-};
+using ppm::TriangleMesh;
 
 /// The mesh as a map. Texels: mean = mean_of(point), variance = 1 cm^2.
 template <class MeanOf>
 std::shared_ptr<const PpmMap> make_map(const TriangleMesh& mesh, const PpmSettings& settings, MeanOf&& mean_of) {
-  PpmEdit edit(std::make_shared<const PpmMap>(settings));
-  std::vector<std::uint32_t> id;
-  for (const auto& p : mesh.position) id.push_back(edit.add_vertex(p));
-  for (const auto& f : mesh.face) {
-    const auto &a = mesh.position[f[0]], &b = mesh.position[f[1]], &c = mesh.position[f[2]];
-    const auto n = edit.map().divisions_for(a, b, c);
-    std::vector<float> mean(texel_count(n)), variance(texel_count(n), 1e-4f);
-    for (std::uint32_t i = 0; i <= n; ++i)
-      for (std::uint32_t j = 0; i + j <= n; ++j) {
-        const float u = static_cast<float>(i) / static_cast<float>(n),
-                    v = static_cast<float>(j) / static_cast<float>(n);
-        mean[texel_index(n, i, j)] = mean_of(Eigen::Vector3f((1 - u - v) * a + u * b + v * c));
-      }
-    edit.add_face({id[f[0]], id[f[1]], id[f[2]]}, static_cast<std::uint8_t>(n), {mean, variance});
-  }
-  return edit.commit();
+  return map_of(mesh, settings, mean_of, 1e-4f);
 }
 inline std::shared_ptr<const PpmMap> make_map(const TriangleMesh& mesh, const PpmSettings& settings = {}) {
   return make_map(mesh, settings, [](const Eigen::Vector3f&) { return 0.f; });

@@ -1,0 +1,58 @@
+#include "tests/prediction/backends.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "framework/slam/frame.hpp"
+#include "tests/support/registry.hpp"
+
+namespace ppm::test {
+namespace {
+
+bool looks_at_meshes(const ModuleInfo& info) {
+  if (!info.name.starts_with("prediction.")) return false;
+  const auto module = info.make();
+  for (const PortBase* port : module->ports()) {
+    if (port->direction() != PortDirection::belief) continue;
+    const auto& needs = static_cast<const BeliefPortBase*>(port)->facets().needs;
+    if (std::find(needs.begin(), needs.end(), "map.ppm") != needs.end()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> exact_backends() {
+  static const std::set<std::string> approximate{"prediction.shared_view"};
+  std::vector<std::string> names;
+  for (const ModuleInfo* info : builtin().all())
+    if (looks_at_meshes(*info) && !approximate.contains(info->name)) names.push_back(info->name);
+  return names;
+}
+
+Views deferred_views(const std::string& backend, const std::shared_ptr<const Map>& map, const std::vector<Look>& looks,
+                     int threads) {
+  const auto params = fmt::format("{{stride: {}}}", looks.front().stride);
+  Views views{std::make_unique<Harness>(builtin(), backend, params, threads), {}};
+  auto frame = std::make_shared<Frame>();
+  frame->camera = looks.front().camera;
+  views.harness->input<Frame>("frame", frame);
+  auto& belief = views.harness->belief();
+  belief.init(looks.size(), Pose::Identity(), map);
+  for (std::size_t i = 0; i < looks.size(); ++i) belief.pose[i] = looks[i].T_map_camera;
+  views.harness->tick();
+  views.of = belief.prediction;
+  return views;
+}
+
+PredictionHandle view_of(const std::string& backend, const std::shared_ptr<const Map>& map, const Look& look) {
+  return filled(deferred_views(backend, map, {look}).of.front());
+}
+
+PredictionHandle filled(const PredictionHandle& view) {
+  static PredictionPool pool;
+  static const Workers one(1);
+  return completed(view, pool, one);
+}
+
+}  // namespace ppm::test

@@ -1,0 +1,36 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/graph/harness.hpp"
+#include "framework/slam/map.hpp"
+#include "framework/slam/prediction.hpp"
+
+namespace ppm::test {
+
+/// The modules that answer exactly what a mesh map shows: every prediction.* that needs a "map.ppm", but for those
+/// that say of themselves that they approximate. A back-end that this machine cannot run is left out, visibly.
+std::vector<std::string> exact_backends();
+
+/// What to look at.
+struct Look {
+  Camera camera;  ///< the frame's
+  int stride = 1;
+  Pose T_map_camera = Pose::Identity();
+};
+
+/// Views of one map by a back-end's module, deferred where it defers: its harness and the map live as long as they do.
+struct Views {
+  std::unique_ptr<Harness> harness;
+  std::vector<PredictionHandle> of;  ///< in the order of the looks
+};
+/// looks: share camera and stride.
+Views deferred_views(const std::string& backend, const std::shared_ptr<const Map>& map, const std::vector<Look>& looks,
+                     int threads = 1);
+/// One view with its arrays filled.
+PredictionHandle view_of(const std::string& backend, const std::shared_ptr<const Map>& map, const Look& look);
+/// The view with its arrays filled. The caller holds the map.
+PredictionHandle filled(const PredictionHandle& view);
+
+}  // namespace ppm::test
