@@ -5,7 +5,7 @@
 
 #include "framework/core/error.hpp"
 #include "modules/maps/ppm/ppm_map.hpp"
-#include "modules/prediction/embree_packet.hpp"
+#include "modules/prediction/embree_packet_inl.hpp"
 
 namespace ppm {
 namespace {

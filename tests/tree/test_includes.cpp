@@ -73,6 +73,15 @@ TEST_CASE("includes go one way") {
   }
 }
 
+TEST_CASE("a part of a source file (_inl.hpp) is included by source files alone") {
+  for (const auto* folder : {"framework", "modules", "apps", "tests"}) {
+    for (const auto& include : includes_of(folder)) {
+      INFO(include.file << ": " << include.line);
+      CHECK((!include.target.ends_with("_inl.hpp") || include.file.ends_with(".cpp")));
+    }
+  }
+}
+
 TEST_CASE("a module's file is included by nobody") {
   for (const auto* folder : {"framework", "modules", "apps", "tests"}) {
     for (const auto& include : includes_of(folder)) {
@@ -102,7 +111,7 @@ TEST_CASE("heavy headers of others are included where they are wrapped, and in n
       for (const auto& [prefix, folders] : homes) {
         if (include.own || !include.target.starts_with(prefix)) continue;
         INFO(include.file << ": " << include.line);
-        CHECK(include.file.ends_with(".cpp"));
+        CHECK((include.file.ends_with(".cpp") || include.file.ends_with("_inl.hpp")));
         CHECK(folders.contains(part_of(include.file)));
       }
     }
