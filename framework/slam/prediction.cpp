@@ -7,6 +7,32 @@
 
 namespace ppm {
 
+namespace {
+
+/// Makes `out` a view of misses with the camera and pose of `view`.
+void blank(const Prediction& view, Prediction& out) {
+  out.reset(view.camera, 1, view.T_map_camera, view.color_channels);
+  out.stride = view.stride;
+}
+
+/// The entries of some rows of a view.
+std::span<const std::uint32_t> of_rows(const std::vector<std::uint32_t>& pixels, const Camera& camera,
+                                       const Rows& rows) {
+  const auto cols = static_cast<std::size_t>(camera.cols);
+  return std::span(pixels).subspan(static_cast<std::size_t>(rows.first) * cols,
+                                   static_cast<std::size_t>(rows.end - rows.first) * cols);
+}
+
+}  // namespace
+
+void DeferredView::elements(const Prediction& view, const Rows& rows, std::span<std::uint32_t> chunk,
+                            std::span<std::uint32_t> face) const {
+  Prediction whole;
+  blank(view, whole);
+  fill(view, rows, whole);
+  whole.elements(rows, chunk, face);
+}
+
 void ViewSamples::resize(std::size_t pixels, int channels) {
   range.resize(pixels);
   variance.resize(pixels);
@@ -68,6 +94,16 @@ void Prediction::sample(std::span<const std::uint32_t> pixels, ViewSamples& out)
   }
 }
 
+void Prediction::elements(const Rows& rows, std::span<std::uint32_t> chunk_out,
+                          std::span<std::uint32_t> face_out) const {
+  if (deferred) return deferred->elements(*this, rows, chunk_out, face_out);
+  const auto chunks = of_rows(chunk, camera, rows), faces = of_rows(face, camera, rows);
+  PPM_CHECK(chunk_out.size() == chunks.size() && face_out.size() == faces.size(), "{} and {} elements of {} pixels",
+            chunk_out.size(), face_out.size(), chunks.size());
+  std::copy(chunks.begin(), chunks.end(), chunk_out.begin());
+  std::copy(faces.begin(), faces.end(), face_out.begin());
+}
+
 Eigen::Vector3d Prediction::direction(std::size_t pixel) const {
   const auto cols = static_cast<std::size_t>(camera.cols);
   const auto ray = camera.ray(static_cast<double>(pixel % cols), static_cast<double>(pixel / cols));
@@ -89,12 +125,6 @@ void each_member(P& prediction, const Do& act) {
   static_cast<void>(deferred);  // completed before it is saved
   act(camera), act(stride), act(T_map_camera), act(range), act(mean), act(variance), act(normal);
   act(chunk), act(face), act(color_channels), act(color), act(color_variance), act(bary);
-}
-
-/// Makes `out` a view of misses with the camera and pose of `view`.
-void blank(const Prediction& view, Prediction& out) {
-  out.reset(view.camera, 1, view.T_map_camera, view.color_channels);
-  out.stride = view.stride;
 }
 
 }  // namespace

@@ -36,6 +36,10 @@ class DeferredView {
   virtual void sample(const Prediction& view, std::span<const std::uint32_t> pixels, ViewSamples& out) const = 0;
   /// Fills some rows of all arrays of `out`, which were reset to misses. out: of the same camera and pose as `view`.
   virtual void fill(const Prediction& view, const Rows& rows, Prediction& out) const = 0;
+  /// Which element the pixels of some rows show: chunk and face as in Prediction, one entry a pixel of these rows each.
+  /// Whoever needs no more asks for no more. Here: what fill() says; a back-end that keeps elements hands them out.
+  virtual void elements(const Prediction& view, const Rows& rows, std::span<std::uint32_t> chunk,
+                        std::span<std::uint32_t> face) const;
 };
 
 /// What a camera at a pose should see of a map: one entry a pixel of `camera` (row-major, [rows*cols]).
@@ -72,6 +76,8 @@ struct Prediction {
   /// What the view shows at some pixels, ascending: from the arrays, or from the deferred view (see there for who may
   /// ask). out.color_channels: 0, or the view's.
   void sample(std::span<const std::uint32_t> pixels, ViewSamples& out) const;
+  /// Which element the pixels of some rows show, see DeferredView::elements(): from the arrays, or the deferred view.
+  void elements(const Rows& rows, std::span<std::uint32_t> chunk_out, std::span<std::uint32_t> face_out) const;
   bool hit(std::size_t pixel) const { return chunk[pixel] != kNone; }
 
   /// Smallest cosine between ray and normal that is divided by: an offset along the normal moves a grazing hit at most

@@ -77,6 +77,16 @@ void ElementView::fill(const Prediction& view, const Rows& rows, Prediction& out
   }
 }
 
+void ElementView::elements(const Prediction& view, const Rows& rows, std::span<std::uint32_t> chunk,
+                           std::span<std::uint32_t> face) const {
+  const auto first = static_cast<std::size_t>(rows.first) * static_cast<std::size_t>(view.camera.cols);
+  PPM_CHECK(chunk.size() == face.size() && first + face.size() <= hits_.face.size(),
+            "{} and {} elements of rows {} to {}", chunk.size(), face.size(), rows.first, rows.end);
+  std::copy_n(&hits_.chunk[first], chunk.size(), chunk.begin());
+  for (std::size_t i = 0; i < face.size(); ++i)
+    face[i] = chunk[i] == Prediction::kNone ? Prediction::kNone : hits_.face[first + i];
+}
+
 void ElementView::fill_pixel(std::size_t p, const Eigen::Vector3f& normal, Prediction& out) const {
   const PpmChunk& chunk = map_->table()[hits_.chunk[p]];
   const std::uint32_t f = hits_.face[p];

@@ -35,6 +35,8 @@ class ElementView final : public DeferredView {
 
   void sample(const Prediction& view, std::span<const std::uint32_t> pixels, ViewSamples& out) const override;
   void fill(const Prediction& view, const Rows& rows, Prediction& out) const override;
+  void elements(const Prediction& view, const Rows& rows, std::span<std::uint32_t> chunk,
+                std::span<std::uint32_t> face) const override;
 
  private:
   void fill_pixel(std::size_t p, const Eigen::Vector3f& normal, Prediction& out) const;

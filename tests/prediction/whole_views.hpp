@@ -34,6 +34,10 @@ inline std::vector<PredictionHandle> whole_views(const ParticleSet& belief) {
                !near(given.variance[p], from_arrays.variance[p], 1e-10);
     }
     CHECK(wrong == 0);
+    std::vector<std::uint32_t> chunk(pixels.size()), face(pixels.size());
+    view->elements(all_rows(view->camera), chunk, face);
+    CHECK(chunk == whole.back()->chunk);
+    CHECK(face == whole.back()->face);
   }
   return whole;
 }

@@ -167,6 +167,12 @@ TEST_CASE("a deferred view answers for chosen pixels, is completed from a pool, 
     CHECK(whole->range.back() == 10 + 3 * 37 - 1);
     CHECK(whole->face == std::vector<std::uint32_t>(3 * 37, 7));
     CHECK(completed(whole, pool, workers) == whole);
+    for (const auto& either : {view, whole}) {
+      std::vector<std::uint32_t> chunk(6), face(6);
+      either->elements({1, 3}, chunk, face);
+      CHECK(chunk == std::vector<std::uint32_t>(6, ppm::Prediction::kNone));
+      CHECK(face == std::vector<std::uint32_t>(6, 7));
+    }
 
     ppm::RecordWriter saved;
     saved.add(*view);
