@@ -181,7 +181,7 @@ class NewModule final : public MapEditor {
  public:
   In<Frame> frame{this, "frame", "The measured image."};
 
-  NewModule() : MapEditor({{"map.ppm", "prediction"}, {}, {}}) {}
+  NewModule() : MapEditor({{"map.ppm", "prediction.elements"}, {}, {}}) {}
 
   MapHandle edit(Context&, std::size_t, MapHandle map, int) override { return map; }
 };

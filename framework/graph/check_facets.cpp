@@ -52,6 +52,7 @@ std::string in_words(const std::string& need) {
   if (need == "belief") return "a belief";
   if (need == "map.*") return "a map";
   if (need.starts_with("map.")) return fmt::format("a '{}' map", need.substr(4));
+  if (need == "prediction.elements") return "an exact view of each particle ('prediction.elements')";
   return fmt::format("'{}' on the belief", need);
 }
 

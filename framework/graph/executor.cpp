@@ -33,8 +33,8 @@ void Executor::open_nodes() {
     contexts_.push_back(context_);
     contexts_.back().enter(node.name);
     const Facets facets = facets_of(*node.module);
-    const auto named = [](const auto& words) { return std::ranges::find(words, "prediction") != words.end(); };
-    prediction_use_.push_back({named(facets.needs), named(facets.gives) || named(facets.drops)});
+    prediction_use_.push_back({speak_of(facets.needs, "prediction"),
+                               speak_of(facets.gives, "prediction") || speak_of(facets.drops, "prediction")});
   }
   for (std::size_t i = 0; i < contexts_.size(); ++i) {
     const Node& node = graph_.nodes_[i];

@@ -12,10 +12,6 @@ namespace ppm {
 
 namespace {
 
-bool names_prediction(const std::vector<std::string>& facets) {
-  return std::ranges::find(facets, "prediction") != facets.end();
-}
-
 void save_summary(const RunSummary& summary, double wall_s, RecordFileWriter& file) {
   RecordWriter out;
   out.add(summary.frames);
@@ -84,8 +80,8 @@ bool Executor::prediction_stands() const {
     for (auto node = graph_.nodes_.rbegin(); node != graph_.nodes_.rend(); ++node) {
       if (!node->gate.open(frame)) continue;
       const auto facets = facets_of(*node->module);
-      if (names_prediction(facets.gives)) return true;
-      if (names_prediction(facets.drops)) return false;
+      if (speak_of(facets.gives, "prediction")) return true;
+      if (speak_of(facets.drops, "prediction")) return false;
     }
   }
   return false;

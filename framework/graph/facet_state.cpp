@@ -1,5 +1,7 @@
 #include "framework/graph/facet_state.hpp"
 
+#include <algorithm>
+
 namespace ppm {
 
 namespace {
@@ -10,6 +12,10 @@ bool is_map(const std::string& facet) {
 
 bool meets(const std::string& facet, const std::string& need) {
   return facet == need || (need == "map.*" && is_map(facet));
+}
+
+bool speak_of(const std::vector<std::string>& facets, const std::string& subject) {
+  return std::ranges::any_of(facets, [&](const auto& f) { return f == subject || f.starts_with(subject + "."); });
 }
 
 Facets facets_of(const Module& module) {
@@ -45,19 +51,13 @@ std::pair<std::string, const FacetState::Event*> FacetState::map_kind() const {
 }
 
 void FacetState::pass(const Facets& facets, std::size_t node, std::int64_t frame) {
-  auto drop = [&](const std::string& facet) {
-    auto it = events_.find(facet);
-    if (it != events_.end() && it->second.given) it->second = {false, node, frame};
+  auto drop = [&](const std::string& subject) {
+    for (auto& [facet, event] : events_)
+      if (event.given && speak_of({facet}, subject)) event = {false, node, frame};
   };
   for (const auto& facet : facets.drops) drop(facet);
-  for (const auto& given : facets.gives) {
-    if (is_map(given)) {
-      for (auto& [facet, event] : events_) {
-        if (is_map(facet)) drop(facet);
-      }
-    }
-    events_[given] = {true, node, frame};
-  }
+  for (const auto& given : facets.gives) drop(is_map(given) ? "map" : given);
+  for (const auto& given : facets.gives) events_[given] = {true, node, frame};
 }
 
 std::vector<std::string> FacetState::words() const {

@@ -22,7 +22,8 @@ class FacetState {
   const Event* last(const std::string& facet) const;
   /// The kind of map that is there ("ppm"), and its event; "" and null where there is none.
   std::pair<std::string, const Event*> map_kind() const;
-  /// The belief after a node.
+  /// The belief after a node. What is dropped or given anew takes its parts along: "prediction.elements" ends with
+  /// "prediction".
   void pass(const Facets& facets, std::size_t node, std::int64_t frame);
   /// All facets that are there, in alphabetical order.
   std::vector<std::string> words() const;
@@ -35,5 +36,7 @@ class FacetState {
 Facets facets_of(const Module& module);
 /// True where a facet meets a need: the same word, or any map for "map.*".
 bool meets(const std::string& facet, const std::string& need);
+/// True where the facets speak of a subject: the word itself, or a part of it ("prediction.elements" of "prediction").
+bool speak_of(const std::vector<std::string>& facets, const std::string& subject);
 
 }  // namespace ppm

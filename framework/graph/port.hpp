@@ -28,7 +28,8 @@ struct PortType<ParticleSet> {
 };
 
 /// What the belief must carry before a node and carries after it. Facets are words: "map.ppm", "prediction", "weights".
-/// "map.*" asks for a map of any kind. A node that gives "map.x" drops every other map facet.
+/// "map.*" asks for a map of any kind. A node that gives "map.x" drops every other map facet. A facet "x.y" is a part of
+/// "x": it goes when "x" is dropped or given anew.
 struct Facets {
   std::vector<std::string> needs;
   std::vector<std::string> gives;

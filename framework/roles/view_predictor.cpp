@@ -10,9 +10,16 @@ namespace {
 
 constexpr int kBandRows = 16;  // a part of a view for one worker
 
+std::vector<std::string> what_is_given(ViewPredictor::Views views) {
+  std::vector<std::string> facets{"prediction"};
+  if (views == ViewPredictor::Views::exact) facets.push_back("prediction.elements");
+  return facets;
+}
+
 }  // namespace
 
-ViewPredictor::ViewPredictor(const std::string& map_facet) : belief(this, {{map_facet}, {"prediction"}, {}}) {
+ViewPredictor::ViewPredictor(const std::string& map_facet, Views views)
+    : belief(this, {{map_facet}, what_is_given(views), {}}) {
   params_.add("stride", stride_).range(1, 64).doc("Predicts each n-th pixel of each n-th row of the frame.");
 }
 

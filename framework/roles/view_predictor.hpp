@@ -16,6 +16,9 @@ class ViewPredictor : public ParticleModule {
   In<Frame> frame{this, "frame", "Gives the camera whose view is predicted."};
   InOut<Belief> belief;
 
+  /// Whether a view shows what the particle's own camera sees, which a map may be updated from, or about that.
+  enum class Views { exact, approximate };
+
   /// Work shared by all views of one map before they are predicted (acceleration structures). The maps are distinct, in
   /// the order of the first particle that has each. Called from one thread.
   virtual void prepare(const std::vector<const Map*>& maps, const Workers& workers) = 0;
@@ -45,7 +48,7 @@ class ViewPredictor : public ParticleModule {
 
  protected:
   /// map_facet: the kind of map that it can look at, "map.ppm".
-  explicit ViewPredictor(const std::string& map_facet);
+  explicit ViewPredictor(const std::string& map_facet, Views views = Views::exact);
 
  private:
   std::shared_ptr<Prediction> blank_view(std::size_t particle);

@@ -17,7 +17,7 @@ class PpmBayesUpdate final : public MapEditor {
  public:
   In<Frame> frame{this, "frame", "The image to be mapped."};
 
-  PpmBayesUpdate() : MapEditor({{"map.ppm", "prediction"}, {}, {}}) {
+  PpmBayesUpdate() : MapEditor({{"map.ppm", "prediction.elements"}, {}, {}}) {
     add_association();
     add_texels();
     add_surface();

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "framework/graph/facet_state.hpp"
 #include "tests/support/toy_modules.hpp"
 
 using namespace ppm;
@@ -85,6 +86,22 @@ TEST_CASE("a facet that is dropped and not given again in time") {
   CHECK(mistakes(kInit + kWalk + node("look", "prediction.toy", kNumber + ", when: {every: 4}") +
                  node("weigh", "weighting.toy", ", when: {every: 6}"))
             .find("in frame 6") != std::string::npos);
+}
+
+TEST_CASE("a part of a facet goes when the facet is dropped or given anew") {
+  FacetState state;
+  state.pass({{}, {"prediction", "prediction.elements"}, {}}, 0, 0);
+  CHECK(state.has("prediction.elements"));
+  state.pass({{}, {"prediction"}, {}}, 1, 0);
+  CHECK(state.has("prediction"));
+  CHECK_FALSE(state.has("prediction.elements"));
+  CHECK(state.last("prediction.elements")->node == 1);
+  state.pass({{}, {"prediction.elements", "prediction"}, {}}, 2, 0);
+  CHECK(state.has("prediction.elements"));
+  state.pass({{}, {}, {"prediction"}}, 3, 0);
+  CHECK_FALSE(state.has("prediction.elements"));
+  CHECK(speak_of({"belief", "prediction.elements"}, "prediction"));
+  CHECK_FALSE(speak_of({"predictions", "map.ppm"}, "prediction"));
 }
 
 TEST_CASE("gates far away are looked at") {
