@@ -22,9 +22,12 @@ double last_metric(ppm::Harness& h, const std::string& name) {
   return h.context().metrics().columns().at("resampling.systematic." + name).back().value;
 }
 
+const std::string kAll[] = {"resampling.systematic", "resampling.stratified", "resampling.residual",
+                            "resampling.multinomial"};
+
 }  // namespace
 
-TEST_CASE("each particle gets n w copies, rounded down or up") {
+TEST_CASE("systematic: each particle gets n w copies, rounded down or up") {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     const std::size_t n = 1 + seed % 40;
     const auto w = random_weights(n, seed);
@@ -39,27 +42,54 @@ TEST_CASE("each particle gets n w copies, rounded down or up") {
   }
 }
 
-TEST_CASE("over many seeds each particle gets n w copies on average") {
-  const auto w = random_weights(10, 3);
-  constexpr int runs = 4000;
-  std::vector<double> mean(w.size());
-  for (int s = 0; s < runs; ++s) {
-    const auto count = copies(w, static_cast<std::uint64_t>(s));
-    for (std::size_t i = 0; i < w.size(); ++i) mean[i] += static_cast<double>(count[i]) / runs;
-  }
-  for (std::size_t i = 0; i < w.size(); ++i) {
-    const double expected = 10 * w[i], rest = expected - std::floor(expected);
-    const double standard_error = std::sqrt(rest * (1 - rest) / runs);
-    CHECK(std::abs(mean[i] - expected) <= 4 * standard_error + 1e-9);
+TEST_CASE("residual: each particle gets at least n w copies, rounded down; stratified: fewer than two from n w") {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const std::size_t n = 2 + seed % 40;
+    const auto w = random_weights(n, seed);
+    const auto residual = copies(w, seed, "resampling.residual"), stratified = copies(w, seed, "resampling.stratified");
+    REQUIRE(std::accumulate(residual.begin(), residual.end(), 0) == static_cast<int>(n));
+    for (std::size_t i = 0; i < n; ++i) {
+      const double expected = static_cast<double>(n) * w[i];
+      REQUIRE(residual[i] >= std::floor(expected - 1e-9));
+      REQUIRE(std::abs(stratified[i] - expected) < 2);
+    }
   }
 }
 
-TEST_CASE("a particle without weight is never drawn, not even by rounding") {
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    const auto count = copies({0, 0.1, 0, 0.1, 0.7, 0.1, 0, 0}, seed);
-    for (std::size_t dead : {0u, 2u, 6u, 7u}) REQUIRE(count[dead] == 0);
+TEST_CASE("over many seeds each particle gets n w copies on average, and independent draws scatter most") {
+  const auto w = random_weights(10, 3);
+  constexpr int runs = 4000;
+  std::vector<double> scatter;
+  for (const auto& module : kAll) {
+    CAPTURE(module);
+    std::vector<double> sum(w.size()), square(w.size());
+    for (int s = 0; s < runs; ++s) {
+      const auto count = copies(w, static_cast<std::uint64_t>(s), module);
+      for (std::size_t i = 0; i < w.size(); ++i) {
+        sum[i] += count[i];
+        square[i] += count[i] * count[i];
+      }
+    }
+    scatter.push_back(0);
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      const double mean = sum[i] / runs, variance = square[i] / runs - mean * mean;
+      CHECK(std::abs(mean - 10 * w[i]) <= 4 * std::sqrt(variance / runs) + 2e-3);
+      scatter.back() += variance;
+      if (module == "resampling.multinomial")
+        CHECK(variance == Approx(10 * w[i] * (1 - w[i])).epsilon(0.12).margin(2e-3));
+    }
   }
-  CHECK(copies({0, 0, 1, 0}, 5) == std::vector<int>{0, 0, 4, 0});
+  for (std::size_t k = 0; k < 3; ++k) CHECK(scatter[k] < 0.8 * scatter[3]);
+}
+
+TEST_CASE("a particle without weight is never drawn, not even by rounding") {
+  for (const auto& module : kAll) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+      const auto count = copies({0, 0.1, 0, 0.1, 0.7, 0.1, 0, 0}, seed, module);
+      for (std::size_t dead : {0u, 2u, 6u, 7u}) REQUIRE(count[dead] == 0);
+    }
+    CHECK(copies({0, 0, 1, 0}, 5, module) == std::vector<int>{0, 0, 4, 0});
+  }
 }
 
 TEST_CASE("weights far below the smallest double's exponent still resample by ratio") {
