@@ -12,6 +12,7 @@ using namespace ppm;
 /// frame   [rows*cols] depth and its sigma, NaN = no return; lateral_px; color where the map has it (DataError where
 ///         the frame has none)
 /// belief  needs a prediction of this frame's view (any stride: the update then works on the prediction's grid)
+/// In the frames between keyframes (`keyframe_every`) texels take offsets at most, see update_visible_texels().
 /// source  paper, section 4.3
 class PpmBayesUpdate final : public MapEditor {
  public:
@@ -25,19 +26,37 @@ class PpmBayesUpdate final : public MapEditor {
     add_votes();
     add_excess();
     add_color();
+    add_keyframes();
   }
 
-  void before(Context&) override { settings_.share(); }
+  void before(Context& context) override {
+    settings_.share();
+    seen_.resize(context.threads());
+  }
 
-  MapHandle edit(Context& context, std::size_t particle, MapHandle map, int) override {
-    PPM_CHECK(belief->prediction[particle], "particle {} has no prediction", particle);
-    const PredictionHandle seen = completed(belief->prediction[particle], completed_, context.workers());
-    return update_map(std::static_pointer_cast<const PpmMap>(std::move(map)), *frame, *seen, settings_, context.frame(),
-                      context.workers());
+  MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) override {
+    const PredictionHandle view = belief->prediction[particle];
+    PPM_CHECK(view, "particle {} has no prediction", particle);
+    auto mesh = std::static_pointer_cast<const PpmMap>(std::move(map));
+    if (context.frame() % keyframe_every_ != 0 && !brings_new(*mesh, *view, seen_[worker])) {
+      if (between_ == Between::nothing) return mesh;
+      return update_visible_texels(std::move(mesh), *frame, view->stride, view->T_map_camera, seen_[worker],
+                                   settings_.texels);
+    }
+    const PredictionHandle whole = completed(view, completed_, context.workers());
+    return update_map(std::move(mesh), *frame, *whole, settings_, context.frame() / keyframe_every_, context.workers());
   }
 
  private:
-  PredictionPool completed_;
+  enum class Between { texels, nothing };
+
+  /// Whether the image asks for a keyframe between the regular ones. Leaves the faces in view in `seen`, where they
+  /// are needed.
+  bool brings_new(const PpmMap& map, const Prediction& view, VisibleFaces& seen) const {
+    if (between_ == Between::nothing && keyframe_misses_ >= 1) return false;
+    seen.collect(map, view, *frame);
+    return seen.miss_share() > keyframe_misses_;
+  }
 
   void add_association() {
     params_.add("gate_classify", settings_.classify_sigmas)
@@ -200,8 +219,10 @@ class PpmBayesUpdate final : public MapEditor {
         .add_choice("color_exposure", settings_.color.exposure,
                     {{"gain", ColorExposure::gain}, {"fixed", ColorExposure::fixed}})
         .doc(
-            "For maps with colour: gain divides an image by how much brighter it is than what the map predicts, channel "
-            "by channel, so that the map keeps the exposure it began with; fixed takes colours as they are, the paper's "
+            "For maps with colour: gain divides an image by how much brighter it is than what the map predicts, "
+            "channel "
+            "by channel, so that the map keeps the exposure it began with; fixed takes colours as they are, the "
+            "paper's "
             "form.");
     params_.add("color_drift", settings_.color.drift)
         .range(0, 1)
@@ -209,9 +230,32 @@ class PpmBayesUpdate final : public MapEditor {
             "Standard deviation by which a texel's colour may change between two images that see it, where 1 is the "
             "brightest: for lighting that changes. 0 is the paper's form, which weighs the first image like the last.");
   }
+  void add_keyframes() {
+    params_.add("keyframe_every", keyframe_every_)
+        .range(1, 1000000)
+        .doc(
+            "Frames from one keyframe to the next. Keyframes do all that this module does; the frames between them "
+            "what "
+            "`between` says.");
+    params_.add_choice("between", between_, {{"texels", Between::texels}, {"nothing", Between::nothing}})
+        .doc(
+            "What the frames between keyframes change: texels lets the offsets of the faces in view read the image (in "
+            "the gather form), nothing leaves the map as it is.");
+    params_.add("keyframe_misses", keyframe_misses_)
+        .range(0, 1)
+        .doc(
+            "A frame between keyframes becomes one, for the particles whose map shows nothing at more than this share "
+            "of "
+            "its measured pixels. 1 = never.");
+  }
   static bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
 
   UpdateSettings settings_;
+  std::int64_t keyframe_every_ = 1;
+  Between between_ = Between::texels;
+  double keyframe_misses_ = 0.1;
+  PredictionPool completed_;
+  PerWorker<VisibleFaces> seen_;
 };
 
 }  // namespace

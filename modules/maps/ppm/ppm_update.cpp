@@ -81,11 +81,15 @@ std::vector<std::uint8_t> wanted_pixels(const UpdateView& view, const std::vecto
   return wanted;
 }
 
-bool is_due(int every, std::int64_t frame) { return every > 0 && frame % every == 0; }
+bool is_due(int every, std::int64_t frame) {
+  return every > 0 && frame % every == 0;
+}
 
 }  // namespace
 
-void UpdateSettings::share() { texels.gate = surface.triangle.gate = holes.gate = gate; }
+void UpdateSettings::share() {
+  texels.gate = surface.triangle.gate = holes.gate = gate;
+}
 
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame,
                                          const Prediction& prediction, const UpdateSettings& settings,
@@ -115,7 +119,8 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   Boundary boundary;
   boundary.build(edit.map(), view, removed);
   std::vector<RimFace> faces;
-  const auto wanted = wanted_pixels(view, classes, is_due(settings.thin_every, frame_number) ? 0 : settings.open_radius);
+  const auto wanted =
+      wanted_pixels(view, classes, is_due(settings.thin_every, frame_number) ? 0 : settings.open_radius);
   NewSurfaceSettings surface = settings.surface;
   if (is_due(settings.grazing_every, frame_number)) surface.triangle.cosine_least = settings.grazing_cosine;
   NotchSettings notches = settings.notches;
@@ -129,6 +134,25 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
   if (counts)
     *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made,
                removed.size()};
+  return edit.commit();
+}
+
+std::shared_ptr<const PpmMap> update_visible_texels(std::shared_ptr<const PpmMap> map, const Frame& frame, int stride,
+                                                    const Pose& T_map_camera, const VisibleFaces& seen,
+                                                    const TexelSettings& settings) {
+  GatherImage image = gather_image(frame.camera.decimated(stride), T_map_camera);
+  image.lateral_px = frame.lateral_px / static_cast<float>(stride);
+  image.row_step = stride * frame.camera.cols;
+  image.col_step = stride;
+  image.depth = frame.depth.data();
+  image.sigma = frame.sigma.data();
+  const GatherGate gate = gather_gate(settings);
+  PpmEdit edit(std::move(map));
+  for (const auto& part : seen.parts()) {
+    Texels& texels = edit.texels(part.chunk);
+    gather_faces(image, gate, gather_faces_of(*edit.map().table()[part.chunk].geometry, texels), part.faces.data(),
+                 part.faces.size());
+  }
   return edit.commit();
 }
 

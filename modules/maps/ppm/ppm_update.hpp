@@ -11,6 +11,7 @@
 #include "modules/maps/ppm/notch_fill.hpp"
 #include "modules/maps/ppm/texel_color.hpp"
 #include "modules/maps/ppm/texel_update.hpp"
+#include "modules/maps/ppm/visible_faces.hpp"
 
 namespace ppm {
 
@@ -48,5 +49,13 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
                                          const Prediction& prediction, const UpdateSettings& settings,
                                          std::int64_t frame_number, const Workers& workers,
                                          UpdateCounts* counts = nullptr);
+
+/// The light update of frames that bring nothing new: the texels of the faces in view take the image's offsets in the
+/// gather form, and all else stays: faces, evidence, colour. Shares everything with the map but those texels; allocates
+/// nothing but copies of shared chunks. map: moved in, as in update_map(). seen: the faces that a view of the map shows
+/// with the camera, decimated by `stride`, at the pose.
+std::shared_ptr<const PpmMap> update_visible_texels(std::shared_ptr<const PpmMap> map, const Frame& frame, int stride,
+                                                    const Pose& T_map_camera, const VisibleFaces& seen,
+                                                    const TexelSettings& settings);
 
 }  // namespace ppm

@@ -6,53 +6,6 @@
 namespace ppm {
 namespace {
 
-/// A face's plane n . x = offset as the gather form needs it.
-struct FacePlane {
-  Eigen::Vector3f normal;
-  float offset;
-  float texel_area;  // m^2, that one node stands for
-  float excess;      // m^2
-};
-
-/// The residuals of the four pixels around (x, y), weighted bilinearly; false where less than half of the weight is
-/// left.
-bool interpolate(const UpdateView& view, const FacePlane& plane, float x, float y, float mean, float limit,
-                 float& offset) {
-  const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, view.cols() - 2);
-  const int y0 = std::clamp(static_cast<int>(std::floor(y)), 0, view.rows() - 2);
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  const std::array<float, 4> weight{(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy};
-  float sum = 0, total = 0;
-  for (int k = 0; k < 4; ++k) {
-    const float r = plane.normal.dot(view.point[view.at(x0 + (k & 1), y0 + (k >> 1))]) - plane.offset;
-    if (!(std::abs(r - mean) <= limit)) continue;  // also where nothing was measured
-    sum += weight[static_cast<std::size_t>(k)] * r;
-    total += weight[static_cast<std::size_t>(k)];
-  }
-  if (total < 0.5f) return false;
-  offset = sum / total;
-  return true;
-}
-
-void gather_node(const UpdateView& view, const TexelSettings& settings, const FacePlane& plane,
-                 const Eigen::Vector3f& node, float& mean, float& variance) {
-  const Eigen::Vector3f image = view.project(node);
-  if (!(image.z() > 0) || image.x() < 0 || image.y() < 0 || image.x() > static_cast<float>(view.cols() - 1) ||
-      image.y() > static_cast<float>(view.rows() - 1))
-    return;
-  const auto nearest = view.at(static_cast<int>(image.x() + 0.5f), static_cast<int>(image.y() + 0.5f));
-  if (!view.measured(nearest)) return;
-  const float cosine = std::max(UpdateView::facing(plane.normal, node), settings.gate.least_cosine);
-  const float sigma = view.sigma[nearest];
-  const float limit = settings.gate_sigmas * settings.gate.spread(sigma, cosine, variance + plane.excess);
-  float offset = 0;
-  if (!interpolate(view, plane, image.x(), image.y(), mean, limit, offset)) return;
-  const float pixel = image.z() * view.inv_fx;
-  const float footprint = pixel * pixel / cosine;
-  const float share = std::min(1.0f, plane.texel_area / footprint);
-  fuse(mean, variance, offset, variance_along_normal(sigma, cosine, view.lateral_px * pixel) / share);
-}
-
 void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::size_t p, PpmEdit& edit) {
   const Prediction& seen = *view.prediction;
   const auto& geometry = *edit.map().table()[seen.chunk[p]].geometry;
@@ -72,13 +25,26 @@ void scatter_pixel(const UpdateView& view, const TexelSettings& settings, std::s
        variance_along_normal(view.sigma[p], cosine, view.lateral_px * pixel));
 }
 
-/// Gathers for a face of the map.
-void gather_map_face(const UpdateView& view, const TexelSettings& settings, const Geometry& geometry, std::uint32_t f,
-                     Texels& texels) {
-  const auto first = geometry.first_texel[f];
-  const auto count = texel_count(geometry.divisions[f]);
-  gather_face(view, settings, corners_in(view, geometry, f), geometry.divisions[f], texels.evidence[f].added_variance(),
-              {&texels.mean[first], count}, {&texels.variance[first], count});
+/// The gather form for faces of the map, ascending.
+void gather_map_faces(const UpdateView& view, const TexelSettings& settings, const std::vector<FaceRef>& faces,
+                      const Workers& workers, PpmEdit& edit) {
+  const GatherImage image = gather_image(view);
+  const GatherGate gate = gather_gate(settings);
+  std::vector<Texels*> texels(edit.map().table().size(), nullptr);
+  for (const auto& f : faces)
+    if (!texels[f.chunk]) texels[f.chunk] = &edit.texels(f.chunk);
+  constexpr std::size_t kTurn = 256;  // faces
+  workers.for_each((faces.size() + kTurn - 1) / kTurn, [&](std::size_t turn, int) {
+    std::array<std::uint32_t, kTurn> numbers;
+    const std::size_t end = std::min((turn + 1) * kTurn, faces.size());
+    for (std::size_t i = turn * kTurn; i < end;) {
+      const auto chunk = faces[i].chunk;
+      std::size_t count = 0;
+      for (; i < end && faces[i].chunk == chunk; ++i) numbers[count++] = faces[i].face;
+      gather_faces(image, gate, gather_faces_of(*edit.map().table()[chunk].geometry, *texels[chunk]), numbers.data(),
+                   count);
+    }
+  });
 }
 
 }  // namespace
@@ -88,20 +54,64 @@ float variance_along_normal(float sigma, float cosine, float lateral) {
   return sigma * sigma * c2 + lateral * lateral * (1 - c2);
 }
 
+GatherImage gather_image(const UpdateView& view) {
+  GatherImage image = gather_image(view.camera, view.prediction->T_map_camera);
+  image.lateral_px = view.lateral_px;
+  image.row_step = view.cols();
+  image.depth = view.depth.data();
+  image.sigma = view.sigma.data();
+  return image;
+}
+
+GatherImage gather_image(const Camera& camera, const Pose& T_map_camera) {
+  const Eigen::Matrix3f axes = T_map_camera.linear().cast<float>();
+  GatherImage image;
+  image.cols = camera.cols;
+  image.rows = camera.rows;
+  image.fx = static_cast<float>(camera.fx);
+  image.fy = static_cast<float>(camera.fy);
+  image.cx = static_cast<float>(camera.cx);
+  image.cy = static_cast<float>(camera.cy);
+  image.inv_fx = static_cast<float>(1.0 / camera.fx);
+  image.inv_fy = static_cast<float>(1.0 / camera.fy);
+  std::copy_n(axes.data(), 9, image.axes);
+  for (int k = 0; k < 3; ++k) {
+    const double centre = T_map_camera.translation()[k];
+    image.centre[k] = static_cast<float>(centre);
+    image.centre_rest[k] = static_cast<float>(centre - image.centre[k]);
+  }
+  return image;
+}
+
+GatherGate gather_gate(const TexelSettings& settings) {
+  const SurfaceGate& gate = settings.gate;
+  return {settings.gate_sigmas, gate.pose_sigma * gate.pose_sigma, gate.map_sigma_most * gate.map_sigma_most,
+          gate.least_cosine};
+}
+
+GatherFaces gather_faces_of(const Geometry& geometry, Texels& texels) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float) && sizeof(FaceEvidence) % sizeof(float) == 0);
+  if (geometry.face.empty()) return {};
+  return {geometry.position.data()->data(),
+          geometry.face.data()->data(),
+          geometry.divisions.data(),
+          geometry.first_texel.data(),
+          &texels.evidence.data()->excess,
+          sizeof(FaceEvidence) / sizeof(float),
+          texels.mean.data(),
+          texels.variance.data()};
+}
+
 void gather_face(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
                  std::uint32_t divisions, float excess, std::span<float> mean, std::span<float> variance) {
-  const Eigen::Vector3f e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
-  const Eigen::Vector3f cross = e1.cross(e2);
-  const float twice_area = cross.norm();
-  const auto n = static_cast<float>(divisions);
-  const FacePlane plane{cross / twice_area, cross.dot(corner[0]) / twice_area, twice_area / (n * n), excess};
-  if (plane.offset >= 0) return;  // seen from behind
-  std::size_t t = 0;
-  for (std::uint32_t i = 0; i <= divisions; ++i)
-    for (std::uint32_t j = 0; i + j <= divisions; ++j, ++t) {
-      const Eigen::Vector3f node = corner[0] + e1 * (static_cast<float>(i) / n) + e2 * (static_cast<float>(j) / n);
-      gather_node(view, settings, plane, node, mean[t], variance[t]);
-    }
+  GatherImage image = gather_image(view);
+  std::fill_n(image.centre, 3, 0.0f);  // corners are relative to it
+  std::fill_n(image.centre_rest, 3, 0.0f);
+  const std::array<std::uint32_t, 3> corners{0, 1, 2};
+  const auto n = static_cast<std::uint8_t>(divisions);
+  const std::uint32_t first = 0;
+  gather_faces(image, gather_gate(settings),
+               {corner[0].data(), corners.data(), &n, &first, &excess, 1, mean.data(), variance.data()}, &first, 1);
 }
 
 void start_texels(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
@@ -148,9 +158,7 @@ void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& clas
       if (classes[p] & kOwnHit) scatter_pixel(view, settings, p, edit);
     return;
   }
-  for_each_face(faces, workers, edit, [&](const Geometry& geometry, std::uint32_t face, Texels& texels) {
-    gather_map_face(view, settings, geometry, face, texels);
-  });
+  gather_map_faces(view, settings, faces, workers, edit);
 }
 
 }  // namespace ppm

@@ -7,6 +7,7 @@
 #include "modules/maps/ppm/face_votes.hpp"
 #include "modules/maps/ppm/pixel_classes.hpp"
 #include "modules/maps/ppm/ppm_edit.hpp"
+#include "modules/maps/ppm/texel_gather.hpp"
 
 namespace ppm {
 
@@ -43,12 +44,17 @@ inline void fuse(float& mean, float& variance, float offset, float measured_vari
   variance = variance * measured_variance / sum;
 }
 
-/// The gather form for one face, of the map or new. corner: relative to the view's centre, in winding order; excess:
-/// m^2, the face's added_variance(): it widens the gate, and is no noise of a texel, which would then forget how much
-/// better near views are; mean, variance [texel_count(divisions)] are updated. Each node takes the distance of the four
-/// measured points around its image from the face's plane, weighted bilinearly, of those within the gate (so none from
-/// beyond a depth jump); nothing where they have less than half of the weight. Where texels are finer than pixels, one
-/// measurement reaches several: its variance grows by the ratio of areas, so that near and far views mix rightly.
+/// A camera at a pose as texels read its image, without the image.
+GatherImage gather_image(const Camera& camera, const Pose& T_map_camera);
+/// The measured image of a view; refers to it.
+GatherImage gather_image(const UpdateView& view);
+GatherGate gather_gate(const TexelSettings& settings);
+/// All faces of a chunk; refers to both.
+GatherFaces gather_faces_of(const Geometry& geometry, Texels& texels);
+
+/// The gather form for one face, of the map or new: see gather_faces(). corner: relative to the view's centre, in
+/// winding order; excess: m^2, the face's added_variance(): it widens the gate, and is no noise of a texel, which would
+/// then forget how much better near views are; mean, variance [texel_count(divisions)] are updated.
 void gather_face(const UpdateView& view, const TexelSettings& settings, const std::array<Eigen::Vector3f, 3>& corner,
                  std::uint32_t divisions, float excess, std::span<float> mean, std::span<float> variance);
 

@@ -1,0 +1,347 @@
+#include <array>
+
+#include "modules/maps/ppm/texel_gather.hpp"
+#include "modules/maps/ppm/texel_grid.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "modules/maps/ppm/texel_gather_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#ifndef PPM_TEXEL_GATHER_SIMD
+#define PPM_TEXEL_GATHER_SIMD
+namespace ppm {
+
+/// Texels of one face each of 1, 2, .. divisions - 1 divisions.
+constexpr std::uint32_t texels_of_fewer(std::uint32_t divisions) {
+  return divisions * (divisions + 1) * (divisions + 2) / 6 - 1;
+}
+
+constexpr std::uint32_t kSmall = 16;  // divisions
+
+/// Grid coordinates (i, j) of the texels of faces with up to kSmall divisions, one face after the other, each in the
+/// order of texel_index; padded, so that whole vectors may be read from any texel on.
+struct GridSteps {
+  std::array<float, texels_of_fewer(kSmall + 1) + 16> i{}, j{};
+
+  constexpr GridSteps() {
+    for (std::uint32_t n = 1; n <= kSmall; ++n)
+      for (std::uint32_t a = 0; a <= n; ++a)
+        for (std::uint32_t b = 0; a + b <= n; ++b) {
+          i[texels_of_fewer(n) + texel_index(n, a, b)] = static_cast<float>(a);
+          j[texels_of_fewer(n) + texel_index(n, a, b)] = static_cast<float>(b);
+        }
+  }
+};
+inline constexpr GridSteps kGridSteps;
+
+}  // namespace ppm
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace ppm {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+struct Vec3 {
+  hn::Vec<D> x, y, z;
+};
+
+template <class V>
+HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
+  return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
+}
+
+/// A face in the camera frame, as its texels need it.
+struct FaceInView {
+  float corner[3];             // m, the first
+  float step_i[3], step_j[3];  // m, from texel to texel
+  /// The distance of a measured point from the face's plane: depth * (x * slope_x + y * slope_y + slope) - offset.
+  float slope_x, slope_y, slope, offset;
+  float texel_area;  // m^2, that one texel stands for
+  float excess;      // m^2
+};
+
+/// The first `count` of some values, the others are not touched; they come as 0.
+template <class D>
+HWY_INLINE hn::Vec<D> load_some(D d, const float* values, std::size_t count) {
+#if HWY_TARGET <= HWY_AVX2
+  return hn::MaskedLoad(hn::FirstN(d, count), d, values);
+#else
+  HWY_ALIGN float some[hn::MaxLanes(d)] = {};
+  for (std::size_t k = 0; k < count && k < hn::Lanes(d); ++k) some[k] = values[k];
+  return hn::Load(d, some);
+#endif
+}
+
+/// Stores the lanes that are set in the mask and touches no others.
+template <class D>
+HWY_INLINE void store_some(D d, hn::Mask<D> set, hn::Vec<D> from, float* values) {
+#if HWY_TARGET <= HWY_AVX2
+  hn::BlendedStore(from, set, d, values);
+#else
+  HWY_ALIGN float some[hn::MaxLanes(d)];
+  hn::Store(from, d, some);
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, set, bits);
+  for (std::size_t k = 0; k < hn::Lanes(d); ++k)
+    if (bits[k / 8] >> (k % 8) & 1) values[k] = some[k];
+#endif
+}
+
+/// What the texels of a face read and compute, one a lane.
+template <class D>
+class Nodes {
+ public:
+  using V = hn::Vec<D>;
+  using M = hn::Mask<D>;
+  using DI = hn::RebindToSigned<D>;
+
+  HWY_INLINE Nodes(const GatherImage& image, const GatherGate& gate, const FaceInView& face)
+      : image_(image), gate_(gate), face_(face) {}
+
+  /// Updates texels at (i, j), of which the first `count` are there.
+  HWY_INLINE void update(V i, V j, std::size_t count, float* means, float* variances) {
+    const D d;
+    const V one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+    const V px = along(0, i, j), py = along(1, i, j), pz = along(2, i, j);
+    const V w = hn::Div(one, pz);
+    V x = hn::Add(hn::Mul(hn::Mul(set(image_.fx), px), w), set(image_.cx));
+    V y = hn::Add(hn::Mul(hn::Mul(set(image_.fy), py), w), set(image_.cy));
+    M seen = hn::And(hn::FirstN(d, count), hn::Gt(pz, zero));
+    seen = hn::And(seen, hn::And(hn::Ge(x, zero), hn::Le(x, set(static_cast<float>(image_.cols - 1)))));
+    seen = hn::And(seen, hn::And(hn::Ge(y, zero), hn::Le(y, set(static_cast<float>(image_.rows - 1)))));
+    if (hn::AllFalse(d, seen)) return;
+    x = hn::IfThenElseZero(seen, x);
+    y = hn::IfThenElseZero(seen, y);
+
+    const DI di;
+    const auto x0 = hn::Min(hn::ConvertTo(di, x), hn::Set(di, image_.cols - 2));
+    const auto y0 = hn::Min(hn::ConvertTo(di, y), hn::Set(di, image_.rows - 2));
+    const auto at = hn::Add(hn::Mul(y0, hn::Set(di, image_.row_step)), hn::Mul(x0, hn::Set(di, image_.col_step)));
+    const V left = hn::ConvertTo(d, x0), top = hn::ConvertTo(d, y0);
+    const V right_part = hn::Sub(x, left), lower_part = hn::Sub(y, top);
+    const V z00 = depth(at, 0, 0), z10 = depth(at, 1, 0), z01 = depth(at, 0, 1), z11 = depth(at, 1, 1);
+    const V half = set(0.5f);
+    const M to_right = hn::Ge(right_part, half), below = hn::Ge(lower_part, half);
+    const V nearest = hn::IfThenElse(below, hn::IfThenElse(to_right, z11, z01), hn::IfThenElse(to_right, z10, z00));
+    seen = hn::And(seen, hn::Eq(nearest, nearest));
+    if (hn::AllFalse(d, seen)) return;
+    const auto nearest_at =
+        hn::Add(at, hn::Add(hn::IfThenElseZero(hn::RebindMask(di, to_right), hn::Set(di, image_.col_step)),
+                            hn::IfThenElseZero(hn::RebindMask(di, below), hn::Set(di, image_.row_step))));
+    const V sigma = hn::GatherIndex(d, image_.sigma, nearest_at);
+
+    const V mean = load_some(d, means, count), variance = load_some(d, variances, count);
+    const V facing = hn::Div(set(-face_.offset), hn::Sqrt(dot(px, py, pz, px, py, pz)));
+    const V cosine = hn::Max(facing, set(gate_.least_cosine));
+    const V along_normal = hn::Mul(sigma, cosine);
+    const V spread = hn::Sqrt(hn::Add(hn::Add(hn::Mul(along_normal, along_normal), set(gate_.pose_variance)),
+                                      hn::Min(hn::Add(variance, set(face_.excess)), set(gate_.map_variance_most))));
+    const V limit = hn::Mul(set(gate_.sigmas), spread);
+
+    const V slope =
+        hn::Add(hn::Add(hn::Mul(left, set(face_.slope_x)), hn::Mul(top, set(face_.slope_y))), set(face_.slope));
+    const V slope_right = hn::Add(slope, set(face_.slope_x));
+    const V left_part = hn::Sub(one, right_part), upper_part = hn::Sub(one, lower_part);
+    V sum = zero, total = zero;
+    const auto tap = [&](V z, V slope_there, V weight) HWY_ATTR {
+      const V residual = hn::Sub(hn::Mul(z, slope_there), set(face_.offset));
+      const M fits = hn::Le(hn::Abs(hn::Sub(residual, mean)), limit);  // not where nothing was measured
+      sum = hn::Add(sum, hn::IfThenElseZero(fits, hn::Mul(weight, residual)));
+      total = hn::Add(total, hn::IfThenElseZero(fits, weight));
+    };
+    tap(z00, slope, hn::Mul(left_part, upper_part));
+    tap(z10, slope_right, hn::Mul(right_part, upper_part));
+    tap(z01, hn::Add(slope, set(face_.slope_y)), hn::Mul(left_part, lower_part));
+    tap(z11, hn::Add(slope_right, set(face_.slope_y)), hn::Mul(right_part, lower_part));
+    seen = hn::And(seen, hn::Ge(total, half));
+    if (hn::AllFalse(d, seen)) return;
+
+    const V pixel = hn::Mul(pz, set(image_.inv_fx));
+    const V share = hn::Min(one, hn::Div(hn::Mul(set(face_.texel_area), cosine), hn::Mul(pixel, pixel)));
+    const V across = hn::Mul(set(image_.lateral_px), pixel);
+    const V noise = hn::Div(hn::Add(hn::Mul(along_normal, along_normal),
+                                    hn::Mul(hn::Mul(across, across), hn::Sub(one, hn::Mul(cosine, cosine)))),
+                            share);
+    // The conjugate Gaussian, see fuse().
+    const V gain = hn::Div(variance, hn::Add(variance, noise));
+    store_some(d, seen, hn::Add(mean, hn::Mul(gain, hn::Sub(hn::Div(sum, total), mean))), means);
+    store_some(d, seen, hn::Mul(gain, noise), variances);
+  }
+
+ private:
+  static HWY_INLINE V set(float value) { return hn::Set(D(), value); }
+  HWY_INLINE V along(std::size_t axis, V i, V j) const {
+    return hn::Add(set(face_.corner[axis]),
+                   hn::Add(hn::Mul(i, set(face_.step_i[axis])), hn::Mul(j, set(face_.step_j[axis]))));
+  }
+  HWY_INLINE V depth(hn::Vec<DI> at, int right, int down) const {
+    return hn::GatherIndex(D(), image_.depth + right * image_.col_step + down * image_.row_step, at);
+  }
+
+  const GatherImage& image_;
+  const GatherGate& gate_;
+  const FaceInView& face_;
+};
+
+/// All texels of a face with few divisions.
+template <class D>
+HWY_INLINE void update_small(D d, const GatherImage& image, const GatherGate& gate, const FaceInView& face,
+                             std::uint32_t divisions, float* mean, float* variance) {
+  const float* const i = &kGridSteps.i[texels_of_fewer(divisions)];
+  const float* const j = &kGridSteps.j[texels_of_fewer(divisions)];
+  const std::size_t count = texel_count(divisions), lanes = hn::Lanes(d);
+  Nodes<D> nodes(image, gate, face);
+  for (std::size_t t = 0; t < count; t += lanes)
+    nodes.update(hn::LoadU(d, i + t), hn::LoadU(d, j + t), count - t, mean + t, variance + t);
+}
+
+/// ... and with many: row by row.
+template <class D>
+HWY_INLINE void update_large(D d, const GatherImage& image, const GatherGate& gate, const FaceInView& face,
+                             std::uint32_t divisions, float* mean, float* variance) {
+  const std::size_t lanes = hn::Lanes(d);
+  Nodes<D> nodes(image, gate, face);
+  for (std::size_t i = 0; i <= divisions; ++i) {
+    const std::size_t count = divisions + 1 - i;
+    for (std::size_t j = 0; j < count; j += lanes)
+      nodes.update(hn::Set(d, static_cast<float>(i)), hn::Iota(d, static_cast<float>(j)), count - j, mean + j,
+                   variance + j);
+    mean += count;
+    variance += count;
+  }
+}
+
+HWY_INLINE void update_face(const GatherImage& image, const GatherGate& gate, const FaceInView& face,
+                            std::uint32_t divisions, float* mean, float* variance) {
+  const hn::ScalableTag<float> whole;
+  const hn::CappedTag<float, 8> eight;
+  const hn::CappedTag<float, 4> four;
+  if (divisions > kSmall) return update_large(whole, image, gate, face, divisions, mean, variance);
+  if (divisions == 1) return update_small(four, image, gate, face, divisions, mean, variance);
+  if (divisions == 2) return update_small(eight, image, gate, face, divisions, mean, variance);
+  update_small(whole, image, gate, face, divisions, mean, variance);
+}
+
+/// As many faces as a vector has lanes are set up at once.
+template <class D>
+class Setup {
+ public:
+  using V = hn::Vec<D>;
+  using DI = hn::RebindToSigned<D>;
+
+  HWY_INLINE Setup(const GatherImage& image, const GatherFaces& of) : image_(image), of_(of) {}
+
+  /// faces: of the lanes. divisions: theirs.
+  HWY_INLINE void run(D d, hn::Vec<DI> faces, V divisions, FaceInView* out) {
+    const DI di;
+    const auto first = hn::Mul(faces, hn::Set(di, 3));
+    const Vec3<D> a = corner(d, first), b = corner(d, hn::Add(first, hn::Set(di, 1))),
+                  c = corner(d, hn::Add(first, hn::Set(di, 2)));
+    const Vec3<D> e1{hn::Sub(b.x, a.x), hn::Sub(b.y, a.y), hn::Sub(b.z, a.z)};
+    const Vec3<D> e2{hn::Sub(c.x, a.x), hn::Sub(c.y, a.y), hn::Sub(c.z, a.z)};
+    const Vec3<D> cross{hn::Sub(hn::Mul(e1.y, e2.z), hn::Mul(e1.z, e2.y)),
+                        hn::Sub(hn::Mul(e1.z, e2.x), hn::Mul(e1.x, e2.z)),
+                        hn::Sub(hn::Mul(e1.x, e2.y), hn::Mul(e1.y, e2.x))};
+    const V twice_area = hn::Sqrt(dot(cross.x, cross.y, cross.z, cross.x, cross.y, cross.z));
+    const V nx = hn::Div(cross.x, twice_area), ny = hn::Div(cross.y, twice_area), nz = hn::Div(cross.z, twice_area);
+    const V slope_x = hn::Mul(nx, hn::Set(d, image_.inv_fx)), slope_y = hn::Mul(ny, hn::Set(d, image_.inv_fy));
+    const V slope =
+        hn::Sub(nz, hn::Add(hn::Mul(slope_x, hn::Set(d, image_.cx)), hn::Mul(slope_y, hn::Set(d, image_.cy))));
+    put(d, a, out, &FaceInView::corner);
+    put(d, {hn::Div(e1.x, divisions), hn::Div(e1.y, divisions), hn::Div(e1.z, divisions)}, out, &FaceInView::step_i);
+    put(d, {hn::Div(e2.x, divisions), hn::Div(e2.y, divisions), hn::Div(e2.z, divisions)}, out, &FaceInView::step_j);
+    put(d, slope_x, out, &FaceInView::slope_x);
+    put(d, slope_y, out, &FaceInView::slope_y);
+    put(d, slope, out, &FaceInView::slope);
+    put(d, dot(nx, ny, nz, a.x, a.y, a.z), out, &FaceInView::offset);
+    put(d, hn::Div(twice_area, hn::Mul(divisions, divisions)), out, &FaceInView::texel_area);
+  }
+
+ private:
+  /// The corner of that number in of.corner, in the camera frame.
+  HWY_INLINE Vec3<D> corner(D d, hn::Vec<DI> number) const {
+    const DI di;
+    const auto vertex = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(of_.corner), number);
+    const auto at = hn::Mul(vertex, hn::Set(di, 3));
+    const auto from_centre = [&](int k) HWY_ATTR {
+      const V p = hn::GatherIndex(d, of_.position + k, at);
+      return hn::Sub(hn::Sub(p, hn::Set(d, image_.centre[k])), hn::Set(d, image_.centre_rest[k]));
+    };
+    const V x = from_centre(0), y = from_centre(1), z = from_centre(2);
+    const auto on_axis = [&](const float* axis) HWY_ATTR {
+      return dot(hn::Set(d, axis[0]), hn::Set(d, axis[1]), hn::Set(d, axis[2]), x, y, z);
+    };
+    return {on_axis(image_.axes), on_axis(image_.axes + 3), on_axis(image_.axes + 6)};
+  }
+  /// Each lane to its face.
+  HWY_INLINE void put(D d, V values, FaceInView* out, float FaceInView::*member) const {
+    HWY_ALIGN float lane[hn::MaxLanes(D())];
+    hn::Store(values, d, lane);
+    for (std::size_t k = 0; k < hn::Lanes(d); ++k) out[k].*member = lane[k];
+  }
+  HWY_INLINE void put(D d, const Vec3<D>& values, FaceInView* out, float (FaceInView::*member)[3]) const {
+    HWY_ALIGN float x[hn::MaxLanes(D())], y[hn::MaxLanes(D())], z[hn::MaxLanes(D())];
+    hn::Store(values.x, d, x);
+    hn::Store(values.y, d, y);
+    hn::Store(values.z, d, z);
+    for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
+      (out[k].*member)[0] = x[k];
+      (out[k].*member)[1] = y[k];
+      (out[k].*member)[2] = z[k];
+    }
+  }
+
+  const GatherImage& image_;
+  const GatherFaces& of_;
+};
+
+void gather(const GatherImage& image, const GatherGate& gate, const GatherFaces& of, const std::uint32_t* faces,
+            std::size_t count) {
+  using D = hn::ScalableTag<float>;
+  const D d;
+  const hn::RebindToSigned<D> di;
+  constexpr std::size_t kMost = hn::MaxLanes(D());
+  Setup<D> setup(image, of);
+  FaceInView in_view[kMost];
+  for (std::size_t start = 0; start < count; start += hn::Lanes(d)) {
+    const std::size_t some = HWY_MIN(hn::Lanes(d), count - start);
+    HWY_ALIGN std::int32_t number[kMost];
+    HWY_ALIGN float divisions[kMost];
+    for (std::size_t k = 0; k < hn::Lanes(d); ++k) {  // lanes beyond the last repeat it
+      const auto f = faces[start + HWY_MIN(k, some - 1)];
+      number[k] = static_cast<std::int32_t>(f);
+      divisions[k] = of.divisions[f];
+    }
+    setup.run(d, hn::Load(di, number), hn::Load(d, divisions), in_view);
+    for (std::size_t k = 0; k < some; ++k) {
+      const auto f = faces[start + k];
+      if (!(in_view[k].offset < 0)) continue;  // seen from behind
+      in_view[k].excess = HWY_MAX(of.excess[f * of.excess_step], 0.0f);
+      const auto first = of.first_texel[f];
+      update_face(image, gate, in_view[k], of.divisions[f], of.mean + first, of.variance + first);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace ppm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ppm {
+
+HWY_EXPORT(gather);
+
+void gather_faces(const GatherImage& image, const GatherGate& gate, const GatherFaces& of, const std::uint32_t* faces,
+                  std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(gather)(image, gate, of, faces, count);
+}
+
+}  // namespace ppm
+#endif
