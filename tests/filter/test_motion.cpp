@@ -72,6 +72,47 @@ TEST_CASE("a path of one pose has no velocity, decay shortens it") {
   CHECK(distance(slowing.belief().pose[0], ppm::se3_exp(1.5 * some_twist())) < 1e-12);
 }
 
+TEST_CASE("without noise, constant acceleration stays on a path of constant acceleration, over uneven steps too") {
+  ppm::Harness h(ppm::test::builtin(), "motion.constant_acceleration", "{sigma_t: 0, sigma_r: 0}");
+  // Along one axis, where twists of steps add up: x = t + 2 t^2.
+  const auto at = [](double t) {
+    Pose pose = Pose::Identity();
+    pose.translation().x() = t + 2 * t * t;
+    return pose;
+  };
+  h.belief().init(1, at(0), nullptr);
+  for (double t : {0.0, 0.1, 0.3}) h.belief().extend(0, {static_cast<std::int64_t>(10 * t), t, at(t)});
+  for (double t : {0.4, 0.6, 0.65, 1.2}) {
+    h.input<ppm::Frame>("frame", frame_at(static_cast<std::int64_t>(100 * t), t));
+    h.tick();
+    CHECK(distance(h.belief().pose[0], at(t)) < 1e-12);
+  }
+}
+
+TEST_CASE("paths too short for an acceleration have constant velocity, those too short for one stay") {
+  for (const std::string module : {"motion.constant_acceleration", "motion.constant_velocity", "motion.random_walk"}) {
+    ppm::Harness h(ppm::test::builtin(), module, "{sigma_t: 0, sigma_r: 0}");
+    begin(h.belief(), 1, some_twist());
+    h.input<ppm::Frame>("frame", frame_at(2, 0.2));
+    h.tick();
+    CHECK(distance(h.belief().pose[0], ppm::se3_exp((module == "motion.random_walk" ? 1 : 2) * some_twist())) < 1e-12);
+    h.belief().init(1, ppm::se3_exp(some_twist()), nullptr);
+    h.belief().extend(0, {0, 0.0, ppm::se3_exp(some_twist())});
+    h.tick();
+    CHECK(distance(h.belief().pose[0], ppm::se3_exp(some_twist())) < 1e-15);
+  }
+}
+
+TEST_CASE("two poses at one time have no velocity") {
+  ppm::Harness h(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 0, sigma_r: 0}");
+  h.belief().init(1, Pose::Identity(), nullptr);
+  h.belief().extend(0, {0, 0.0, Pose::Identity()});
+  h.belief().extend(0, {1, 0.0, ppm::se3_exp(some_twist())});
+  h.input<ppm::Frame>("frame", frame_at(2, 0.1));
+  h.tick();
+  CHECK(distance(h.belief().pose[0], ppm::se3_exp(some_twist())) < 1e-15);
+}
+
 TEST_CASE("the noise of constant velocity has the covariance of its parameters, in the camera frame") {
   constexpr std::size_t n = 20'000;
   ppm::Harness h(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 2 cm, sigma_r: 1 deg}");
