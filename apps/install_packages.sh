@@ -6,6 +6,7 @@ packages=(
   libeigen3-dev libembree-dev libhwy-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   libtbb-dev librandom123-dev libpng-dev libjpeg-dev zlib1g-dev libxxhash-dev libboost-dev libmeshoptimizer-dev
   libopenvdb-dev libboost-iostreams-dev
+  libegl-dev libgl-dev libegl1 libgl1-mesa-dri
   catch2 libopenmesh-dev libtinygltf-dev libbenchmark-dev libmrpt-bayes-dev jq
 )
 missing=()

@@ -145,9 +145,10 @@ class Judge {
     const double sides = t.e1.norm() + t.e2.norm(), corner = kCornerShare * (1 + at->range + sides);
     raise(tally_.normal, (normal - n).norm() / (1e-6 + corner * sides / cross.norm()));
     const double allowed = tolerance(at->range, at->cosine) + corner * sides * sides / cross.norm();
-    raise(tally_.range, std::abs(view_.range[p] - at->range) / allowed);
+    const double taken_back = beyond_edge(*at);
+    raise(tally_.range, std::abs(view_.range[p] - at->range) / (allowed + taken_back));
     const double off = ((u - at->u) * t.e1 + (v - at->v) * t.e2).norm();
-    raise(tally_.point, off / (allowed + beyond_edge(*at)));
+    raise(tally_.point, off / (allowed + taken_back));
     check_texture(p);
   }
 

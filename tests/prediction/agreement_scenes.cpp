@@ -56,7 +56,7 @@ Scene on_the_rays() {
   const Camera camera{48, 32, 32, 32, 24, 16};
   const auto mesh = height_field(16, 1.f, [](float, float) { return 1.f; });
   return {
-      "vertices and edges on rays", make_map(mesh, cells_of(0.25), tilted_mean), {{camera, 1, Pose::Identity()}}, 0.4};
+      "vertices and edges on rays", make_map(mesh, cells_of(0.25), tilted_mean), {{camera, 1, Pose::Identity()}}, 0.5};
 }
 
 Scene room() {

@@ -1,0 +1,42 @@
+#pragma once
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include <string>
+#include <vector>
+
+namespace ppm {
+
+/// EGL by pointers into libEGL.so.1, which is loaded when it is first asked for and stays loaded.
+struct EglLibrary {
+  PFNEGLGETPROCADDRESSPROC GetProcAddress = nullptr;
+  PFNEGLBINDAPIPROC BindAPI = nullptr;
+  PFNEGLCREATECONTEXTPROC CreateContext = nullptr;
+  PFNEGLDESTROYCONTEXTPROC DestroyContext = nullptr;
+  PFNEGLGETERRORPROC GetError = nullptr;
+  PFNEGLINITIALIZEPROC Initialize = nullptr;
+  PFNEGLMAKECURRENTPROC MakeCurrent = nullptr;
+  PFNEGLQUERYSTRINGPROC QueryString = nullptr;
+  PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay = nullptr;
+  PFNEGLQUERYDEVICESEXTPROC QueryDevices = nullptr;            ///< null where EGL cannot list devices
+  PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString = nullptr;  ///< null where EGL cannot list devices
+
+  /// Throws Error where there is no EGL that can do without a display.
+  static const EglLibrary& get();
+};
+
+/// A way to a device that EGL knows.
+struct EglDisplayChoice {
+  std::string name;       ///< for messages: "device 0", "Mesa's surfaceless platform"
+  bool software = false;  ///< the processor draws
+  EGLDisplay display = EGL_NO_DISPLAY;
+};
+
+/// Devices in EGL's own order, those of hardware first; Mesa's surfaceless platform where devices cannot be listed.
+/// None is opened yet.
+std::vector<EglDisplayChoice> egl_displays(const EglLibrary& egl);
+
+/// Whether a list of extensions, separated by spaces, holds one. list: null holds none.
+bool has_extension(const char* list, const char* name);
+
+}  // namespace ppm
