@@ -48,11 +48,11 @@ struct RasterTexels {
 /// Some rows of a view, drawn: the triangle that each pixel shows, and the triangles that were drawn. A triangle is
 /// four quads of floats, each kept in an array of its own. Image coordinates (x, y) count from the camera's middle.
 ///   quad 0  edge 1 (a, b, c), scale     barycentric u = edge1(x, y) * scale / inverse_depth(x, y),
-///   quad 1  edge 2 (a, b, c), height    v likewise of edge 2; edge(x, y) = a x + b y + c, not negative inside
+///   quad 1  edge 2 (a, b, c), slope     v likewise of edge 2; edge(x, y) = a x + b y + c, not negative inside
 ///   quad 2  plane (a, b, c), face       inverse_depth(x, y) = a x + b y + c, 1/m along the optical axis
 ///   quad 3  edge 0 (a, b, c), slot
-/// height: m, from the camera's centre to the face's plane, negative where the face is seen from behind; face (in its
-/// chunk) and slot (of its chunk in `texels`) are integers in a float's place.
+/// slope: 1/m, of the distance from the camera's centre to the face's plane, negative where the face is seen from
+/// behind; face (in its chunk) and slot (of its chunk in `texels`) are integers in a float's place.
 struct RasterBand {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::size_t kSpare = 16;  ///< entries past the end of every array that kernels may touch

@@ -60,7 +60,7 @@ VF at(const Vec3& line, VF x, VF y) {
 struct Triangles {
   Vec3 edge[3];  // twice v_j x v_k, positive inside
   Vec3 plane;    // 1 / depth
-  VF scale, height;
+  VF scale, slope;
   MF drawn;
 };
 
@@ -82,7 +82,7 @@ Triangles set_up(const RasterCamera& camera, const Vec3* v) {
       hn::Add(hn::Mul(t.plane.x, hn::Set(df, camera.offset_x)), hn::Mul(t.plane.y, hn::Set(df, camera.offset_y))),
       t.plane.w);
   const VF slope = hn::Sqrt(hn::Add(hn::Add(hn::Mul(mx, mx), hn::Mul(my, my)), hn::Mul(mz, mz)));
-  t.height = hn::CopySign(hn::Div(hn::Set(df, 1.f), slope), front);
+  t.slope = hn::CopySign(slope, front);
   const VF zero = hn::Zero(df);
   t.drawn = camera.cull ? hn::Gt(front, zero) : hn::Ne(front, zero);
   return t;
@@ -159,7 +159,7 @@ class Band {
 
   void store(const Triangles& t, VF face, VF slot, std::size_t first) {
     hn::StoreInterleaved4(t.edge[1].x, t.edge[1].y, t.edge[1].w, t.scale, df, quad_[0] + 4 * first);
-    hn::StoreInterleaved4(t.edge[2].x, t.edge[2].y, t.edge[2].w, t.height, df, quad_[1] + 4 * first);
+    hn::StoreInterleaved4(t.edge[2].x, t.edge[2].y, t.edge[2].w, t.slope, df, quad_[1] + 4 * first);
     hn::StoreInterleaved4(t.plane.x, t.plane.y, t.plane.w, face, df, quad_[2] + 4 * first);
     hn::StoreInterleaved4(t.edge[0].x, t.edge[0].y, t.edge[0].w, slot, df, quad_[3] + 4 * first);
   }

@@ -42,28 +42,54 @@ void raster_select(const RasterCamera& camera, const std::uint32_t* face, std::s
 void raster_draw(const RasterCamera& camera, const std::uint32_t* face, const float* vertex, const RasterBoxes& boxes,
                  std::uint32_t slot, RasterBand& band, float* inverse_depth);
 
-/// Pixels of a view that attributes are looked up for: arrays of one entry a pixel.
-struct RasterPixels {
-  static constexpr std::size_t kMost = 256;
-  template <class T>
-  struct alignas(64) Lanes {
-    T value[kMost];
-    T& operator[](std::size_t i) { return value[i]; }
-    const T& operator[](std::size_t i) const { return value[i]; }
-  };
+/// Consecutive pixels of a list that show the same triangle, and what is known of it: arrays by run.
+struct RasterRuns {
+  static constexpr std::size_t kMost = 256;  ///< runs, and pixels
+  static constexpr std::size_t kRoom = kMost + RasterBand::kSpare;
   std::size_t size = 0;
-  alignas(64) float quad[3][4 * kMost];  ///< [kMost][4] each, see RasterBand
-  Lanes<float> x, y;                     ///< image coordinates
-  Lanes<std::int32_t> divisions;
-  // raster_locate:
-  Lanes<float> range, cosine;  ///< m along the ray; |normal . ray|
-  Lanes<float> u, v;
-  Lanes<std::int32_t> texel[3];  ///< positions within the face's texels, and their weights
-  Lanes<float> weight[3];
+  alignas(64) std::uint32_t triangle[kRoom];
+  alignas(64) float quad[3][4 * kRoom];  ///< [kRoom][4] each, see RasterBand
+  alignas(64) float divisions[kRoom];
+  /// Of the face's first texel, from where mean_base and variance_base point to.
+  alignas(64) std::int32_t mean[kRoom], variance[kRoom];
+  alignas(64) float added_variance[kRoom];  ///< m^2, of the face; negative: a miss
+  const float *mean_base = nullptr, *variance_base = nullptr;
+  /// Made by raster_look_up: the quads' members, [12][kRoom].
+  alignas(64) float member[12][kRoom];
 };
 
-/// Finds range, cosine, barycentrics and texels of pixels from quads, x, y and divisions. linear: all three texels
-/// around; otherwise the nearest has all the weight.
-void raster_locate(const RasterCamera& camera, bool linear, RasterPixels& pixels);
+/// What pixels show, by pixel of a list.
+struct RasterPixels {
+  std::size_t size = 0;
+  alignas(64) std::int32_t run[RasterRuns::kRoom];  ///< rises by 0 or 1 from pixel to pixel
+  /// Index into the band. The first stands also before the first, and the last kSpare times after the last.
+  std::int32_t* pixel() { return pixel_room_ + RasterBand::kSpare; }
+  const std::int32_t* pixel() const { return pixel_room_ + RasterBand::kSpare; }
+  // Made by raster_look_up; where nothing is shown, u, v and mean are some finite numbers.
+  alignas(64) float u[RasterRuns::kRoom], v[RasterRuns::kRoom];
+  alignas(64) float range[RasterRuns::kRoom], mean[RasterRuns::kRoom], variance[RasterRuns::kRoom];
+  alignas(64) float cosine[RasterRuns::kRoom];
+  alignas(64) std::int32_t texel[3][RasterRuns::kRoom];  ///< around, within the face's texels, and their weights
+  alignas(64) float weight[3][RasterRuns::kRoom];
+
+ private:
+  alignas(64) std::int32_t pixel_room_[RasterBand::kSpare + RasterRuns::kRoom];
+};
+
+/// Finds the runs of pixels that show the same triangle: runs.triangle, runs.size, pixels.run. shown: of a band.
+void raster_split(const std::uint32_t* shown, RasterRuns& runs, RasterPixels& pixels);
+
+/// What a lookup is to say.
+struct RasterQuestion {
+  bool linear_texels = true;  ///< texels interpolated; otherwise the nearest
+  /// Range and variance of the described surface along the ray, and the cosine (see ViewSamples); otherwise range of
+  /// the face, mean and variance along the normal, which is turned to the camera (see Prediction).
+  bool along_ray = true;
+  float least_cosine = 0;  ///< that is divided by
+  float miss = 0;          ///< the range where nothing is shown
+};
+
+/// Finds what the pixels show. The arrays of `runs` and `pixels` may be written up to their room.
+void raster_look_up(const RasterCamera& camera, const RasterQuestion& question, RasterRuns& runs, RasterPixels& pixels);
 
 }  // namespace ppm

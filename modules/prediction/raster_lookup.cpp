@@ -1,7 +1,10 @@
 #include "modules/prediction/raster_lookup.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <hwy/cache_control.h>
+#include <limits>
 
 #include "modules/maps/ppm/chunk.hpp"
 
@@ -10,61 +13,82 @@ namespace {
 
 // A face that is looked up for pixels without one.
 constexpr float kNoTriangle[3][4] = {{0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 1, 0}};
-constexpr float kNoTexels[3] = {0, 0, 0};
+constexpr float kNoTexels[3] = {};
+constexpr std::size_t kQuad = sizeof kNoTriangle[0];
+
+/// The distance between two places in memory, in floats; false where it does not fit.
+bool offset(const float* from, const float* to, std::int32_t& floats) {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max() / 2;  // room for texels of a face
+  const std::int64_t bytes = reinterpret_cast<std::intptr_t>(to) - reinterpret_cast<std::intptr_t>(from);
+  const std::int64_t count = bytes / static_cast<std::int64_t>(sizeof(float));
+  floats = static_cast<std::int32_t>(count);
+  return std::abs(count) < most;
+}
 
 }  // namespace
 
-void RasterLookup::find(const RasterBand& band, std::span<const std::uint32_t> pixels) {
-  gather(band, pixels);
-  raster_locate(camera_, linear_texels_, at);
-  read_texels();
+std::size_t RasterLookup::find(const RasterBand& band, std::span<const std::uint32_t> pixels) {
+  take(band, pixels.first(std::min(pixels.size(), RasterRuns::kMost)));
+  raster_split(band.shown.data(), runs_, at);
+  runs_.mean_base = runs_.variance_base = nullptr;
+  std::size_t described = 0;
+  while (described < runs_.size && describe(band, described)) ++described;
+  if (described < runs_.size) {  // the rest is looked up from other bases
+    runs_.size = described;
+    const auto* end = std::lower_bound(at.run, at.run + at.size, static_cast<std::int32_t>(described));
+    at.size = static_cast<std::size_t>(end - at.run);
+    std::fill_n(at.run + at.size, RasterBand::kSpare, at.run[at.size - 1]);
+  }
+  if (!runs_.mean_base) runs_.mean_base = runs_.variance_base = kNoTexels;
+  camera_.first_row = band.first_row;
+  raster_look_up(camera_, question_, runs_, at);
+  return at.size;
 }
 
-void RasterLookup::gather(const RasterBand& band, std::span<const std::uint32_t> pixels) {
-  const auto cols = static_cast<std::uint32_t>(camera_.cols);
-  const std::uint32_t top = static_cast<std::uint32_t>(band.first_row) * cols;
-  std::uint32_t row = pixels.front() / cols, row_end = (row + 1) * cols;
+void RasterLookup::take(const RasterBand& band, std::span<const std::uint32_t> pixels) {
+  const auto top = static_cast<std::uint32_t>(band.first_row * camera_.cols);
+  std::int32_t* pixel = at.pixel();
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixel[i] = static_cast<std::int32_t>(pixels[i] - top);
   at.size = pixels.size();
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    while (pixels[i] >= row_end) ++row, row_end += cols;
-    at.x[i] = static_cast<float>(static_cast<int>(pixels[i] + cols - row_end) - camera_.middle_x);
-    at.y[i] = static_cast<float>(static_cast<int>(row) - camera_.middle_y);
-    take(band, i, band.shown.data()[pixels[i] - top]);
-  }
+  pixel[-1] = pixel[0];
+  std::fill_n(pixel + at.size, RasterBand::kSpare, pixel[at.size - 1]);
 }
 
-void RasterLookup::take(const RasterBand& band, std::size_t i, std::uint32_t triangle) {
+bool RasterLookup::describe(const RasterBand& band, std::size_t run) {
+  const std::uint32_t triangle = runs_.triangle[run];
   if (triangle == RasterBand::kNone) {
-    for (int k = 0; k < 3; ++k) std::memcpy(at.quad[k] + 4 * i, kNoTriangle[k], sizeof kNoTriangle[k]);
-    at.divisions[i] = 1;
-    element[i] = {nullptr, 0, 1, 0, kNoTexels, kNoTexels};
-    return;
+    describe_miss(run);
+    return true;
   }
-  const std::size_t first = 4 * std::size_t{triangle};
-  for (int k = 0; k < 3; ++k) std::memcpy(at.quad[k] + 4 * i, band.quad[k].data() + first, sizeof kNoTriangle[k]);
+  for (int k = 0; k < 3; ++k)
+    std::memcpy(runs_.quad[k] + 4 * run, band.quad[k].data() + 4 * std::size_t{triangle}, kQuad);
   const RasterTexels& texels = band.texels_of(triangle);
-  const std::uint32_t face = band.face_of(triangle);
-  const std::uint32_t texel = texels.first_texel[face];
-  at.divisions[i] = texels.divisions[face];
-  element[i] = {&texels,
-                face,
-                std::copysign(1.f, band.quad[1].data()[first + 3]),
-                texels.evidence[face].added_variance(),
-                texels.mean + texel,
-                texels.variance + texel};
+  const std::uint32_t face = band.face_of(triangle), first = texels.first_texel[face];
+  runs_.divisions[run] = texels.divisions[face];
+  runs_.added_variance[run] = texels.evidence[face].added_variance();
+  face_[run] = {texels.chunk, face, std::copysign(1.f, runs_.quad[1][4 * run + 3])};
+  for (std::uint32_t t = 0; t < texel_count(texels.divisions[face]); t += 16) {
+    hwy::Prefetch(texels.mean + first + t);
+    hwy::Prefetch(texels.variance + first + t);
+  }
+  return reach_texels(run, texels.mean + first, texels.variance + first);
 }
 
-void RasterLookup::read_texels() {
-  for (std::size_t i = 0; i < at.size; ++i) {
-    const Element& e = element[i];
-    float m = 0, v = e.added_variance;
-    for (int k = 0; k < 3; ++k) {
-      m += at.weight[k][i] * e.mean[at.texel[k][i]];
-      v += at.weight[k][i] * e.variance[at.texel[k][i]];
-    }
-    mean[i] = e.side * m;
-    variance[i] = v;
+void RasterLookup::describe_miss(std::size_t run) {
+  for (int k = 0; k < 3; ++k) std::memcpy(runs_.quad[k] + 4 * run, kNoTriangle[k], kQuad);
+  runs_.divisions[run] = 1;
+  runs_.added_variance[run] = -1;
+  face_[run] = {};
+  runs_.mean[run] = runs_.variance[run] = 0;  // of whatever face: there are three texels at least
+}
+
+/// False where the run's texels are too far in memory from those of the runs before.
+bool RasterLookup::reach_texels(std::size_t run, const float* mean, const float* variance) {
+  if (!runs_.mean_base) {
+    runs_.mean_base = mean;
+    runs_.variance_base = variance;
   }
+  return offset(runs_.mean_base, mean, runs_.mean[run]) && offset(runs_.variance_base, variance, runs_.variance[run]);
 }
 
 }  // namespace ppm

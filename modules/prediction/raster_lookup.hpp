@@ -5,36 +5,35 @@
 
 namespace ppm {
 
-/// What a band shows at some of its pixels: up to RasterPixels::kMost at a time. Large: make one and use it often.
+/// What a band shows at some of its pixels: up to RasterRuns::kMost at a time. Large: make one and use it often.
 class RasterLookup {
  public:
-  /// linear_texels: interpolate between texels; otherwise take the nearest.
-  RasterLookup(const RasterCamera& camera, bool linear_texels) : camera_(camera), linear_texels_(linear_texels) {}
+  RasterLookup(const RasterCamera& camera, const RasterQuestion& question) : camera_(camera), question_(question) {}
 
-  /// Looks up pixels (indices into the view, ascending, all in the band, at least one).
-  void find(const RasterBand& band, std::span<const std::uint32_t> pixels);
+  /// Looks up the first of some pixels (indices into the view, ascending, all in the band), at least one; says how
+  /// many.
+  std::size_t find(const RasterBand& band, std::span<const std::uint32_t> pixels);
 
-  /// The face that a pixel shows.
-  struct Element {
-    const RasterTexels* texels = nullptr;  ///< of its chunk; null: a miss
-    std::uint32_t face = 0;
-    float side = 1;                                    ///< -1: seen from behind
-    float added_variance = 0;                          ///< m^2, of the face
-    const float *mean = nullptr, *variance = nullptr;  ///< the face's texels
+  /// A face that pixels show.
+  struct Face {
+    std::uint32_t chunk = kNoChunk, face = 0;  ///< kNoChunk: a miss
+    float side = 1;                            ///< -1: seen from behind
   };
-  Element element[RasterPixels::kMost];
-  /// Range, cosine and barycentrics; where nothing is shown they are some finite numbers.
+  static constexpr std::uint32_t kNoChunk = 0xffffffffu;
+  /// The face of a pixel. Also its runs' number: pixels of the same run show the same.
+  const Face& face(std::size_t i) const { return face_[at.run[i]]; }
   RasterPixels at;
-  RasterPixels::Lanes<float> mean;      ///< m along the normal, turned to the camera
-  RasterPixels::Lanes<float> variance;  ///< m^2 along the normal
 
  private:
-  void gather(const RasterBand& band, std::span<const std::uint32_t> pixels);
-  void take(const RasterBand& band, std::size_t i, std::uint32_t triangle);
-  void read_texels();
+  void take(const RasterBand& band, std::span<const std::uint32_t> pixels);
+  bool describe(const RasterBand& band, std::size_t run);
+  void describe_miss(std::size_t run);
+  bool reach_texels(std::size_t run, const float* mean, const float* variance);
 
-  const RasterCamera& camera_;
-  bool linear_texels_;
+  RasterCamera camera_;
+  RasterQuestion question_;
+  RasterRuns runs_;
+  Face face_[RasterRuns::kMost];
 };
 
 }  // namespace ppm

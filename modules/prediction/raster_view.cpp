@@ -14,33 +14,22 @@ namespace {
 /// Writes colour [channels] and its variance at a pixel that shows a face.
 void read_color(const PpmMap& map, bool linear, const RasterLookup& seen, std::size_t i, std::size_t channels,
                 float* color, float* variance) {
-  const auto& e = seen.element[i];
-  const PpmChunk& chunk = map.table()[e.texels->chunk];
-  const float u = seen.at.u[i], v = seen.at.v[i];
-  const ColorSample c = linear ? linear_color(*chunk.geometry, *chunk.texels, e.face, u, v)
-                               : nearest_color(*chunk.geometry, *chunk.texels, e.face, u, v);
+  const PpmChunk& chunk = map.table()[seen.face(i).chunk];
+  const std::uint32_t f = seen.face(i).face;
+  const ColorSample c = linear ? linear_color(*chunk.geometry, *chunk.texels, f, seen.at.u[i], seen.at.v[i])
+                               : nearest_color(*chunk.geometry, *chunk.texels, f, seen.at.u[i], seen.at.v[i]);
   std::copy_n(c.mean.begin(), channels, color);
   *variance = c.variance;
 }
 
-void write_sample(const RasterLookup& seen, std::size_t i, ViewSamples& out, std::size_t at) {
-  constexpr auto least = static_cast<float>(Prediction::kMinCosine);
-  const bool miss = !seen.element[i].texels;
-  const float c = std::max(seen.at.cosine[i], least);
-  out.range[at] = miss ? Prediction::kMiss : seen.at.range[i] - seen.mean[i] / c;
-  out.variance[at] = miss ? 0.f : seen.variance[i] / (c * c);
-  out.cosine[at] = miss ? 1.f : c;
-}
-
 void write_pixel(const RasterLookup& seen, std::size_t i, const Eigen::Vector3f& normal, Prediction& out,
                  std::size_t p) {
-  const auto& e = seen.element[i];
   out.range[p] = seen.at.range[i];
-  out.mean[p] = seen.mean[i];
-  out.variance[p] = seen.variance[i];
-  for (int k = 0; k < 3; ++k) out.normal[3 * p + static_cast<std::size_t>(k)] = e.side * normal[k];
-  out.chunk[p] = e.texels->chunk;
-  out.face[p] = e.face;
+  out.mean[p] = seen.at.mean[i];
+  out.variance[p] = seen.at.variance[i];
+  Eigen::Map<Eigen::Vector3f>(&out.normal[3 * p]) = normal;
+  out.chunk[p] = seen.face(i).chunk;
+  out.face[p] = seen.face(i).face;
   out.bary[2 * p] = seen.at.u[i];
   out.bary[2 * p + 1] = seen.at.v[i];
 }
@@ -57,6 +46,10 @@ void RasterView::start(const PpmMap& map, const Prediction& view, const RasterOp
   band_of_row_.assign(static_cast<std::size_t>(view.camera.rows), nullptr);
 }
 
+RasterQuestion RasterView::question(bool along_ray) const {
+  return {options_.linear_texels, along_ray, static_cast<float>(Prediction::kMinCosine), Prediction::kMiss};
+}
+
 RasterBand& RasterView::add_band(const Rows& rows) {
   std::lock_guard lock(mutex_);
   if (bands_used_ == bands_.size()) bands_.push_back(std::make_unique<RasterBand>());
@@ -68,18 +61,21 @@ RasterBand& RasterView::add_band(const Rows& rows) {
 }
 
 template <class Body>
-void RasterView::look_up(std::span<const std::uint32_t> pixels, const Body& body) const {
-  RasterLookup lookup(camera_, options_.linear_texels);
+void RasterView::look_up(const RasterQuestion& question, std::span<const std::uint32_t> pixels,
+                         const Body& body) const {
+  RasterLookup lookup(camera_, question);
   const auto cols = static_cast<std::uint32_t>(camera_.cols);
   for (std::size_t first = 0; first < pixels.size();) {
     const RasterBand* band = band_of_row_[pixels[first] / cols];
     PPM_CHECK(band, "row {} was not drawn", pixels[first] / cols);
-    const auto part = pixels.subspan(first, std::min(pixels.size() - first, RasterPixels::kMost));
-    const auto end = static_cast<std::uint32_t>(band->end_row) * cols;
-    const auto count = static_cast<std::size_t>(std::lower_bound(part.begin(), part.end(), end) - part.begin());
-    lookup.find(*band, part.first(count));
-    body(lookup, first, count);
-    first += count;
+    auto part = pixels.subspan(first);  // of the band
+    const auto end = std::lower_bound(part.begin(), part.end(), static_cast<std::uint32_t>(band->end_row) * cols);
+    for (part = part.first(static_cast<std::size_t>(end - part.begin())); !part.empty();) {
+      const std::size_t count = lookup.find(*band, part);
+      body(lookup, first);
+      first += count;
+      part = part.subspan(count);
+    }
   }
 }
 
@@ -87,10 +83,12 @@ void RasterView::sample(const Prediction&, std::span<const std::uint32_t> pixels
   const auto channels = static_cast<std::size_t>(out.color_channels);
   std::fill(out.color.begin(), out.color.end(), 0.0f);
   std::fill(out.color_variance.begin(), out.color_variance.end(), 0.0f);
-  look_up(pixels, [&](const RasterLookup& seen, std::size_t first, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) write_sample(seen, i, out, first + i);
-    for (std::size_t i = 0; channels > 0 && i < count; ++i)
-      if (seen.element[i].texels)
+  look_up(question(true), pixels, [&](const RasterLookup& seen, std::size_t first) {
+    std::copy_n(seen.at.range, seen.at.size, &out.range[first]);
+    std::copy_n(seen.at.variance, seen.at.size, &out.variance[first]);
+    std::copy_n(seen.at.cosine, seen.at.size, &out.cosine[first]);
+    for (std::size_t i = 0; channels > 0 && i < seen.at.size; ++i)
+      if (seen.face(i).chunk != RasterLookup::kNoChunk)
         read_color(*map_, options_.linear_texels, seen, i, channels, &out.color[channels * (first + i)],
                    &out.color_variance[first + i]);
   });
@@ -101,17 +99,15 @@ void RasterView::fill(const Prediction&, const Rows& rows, Prediction& out) cons
   std::vector<std::uint32_t> pixels(static_cast<std::size_t>(rows.end - rows.first) *
                                     static_cast<std::size_t>(camera_.cols));
   std::iota(pixels.begin(), pixels.end(), static_cast<std::uint32_t>(rows.first * camera_.cols));
-  const RasterTexels* chunk = nullptr;
-  std::uint32_t face = 0;
-  Eigen::Vector3f normal;  // of the last face: often the next pixel's too
-  look_up(pixels, [&](const RasterLookup& seen, std::size_t first, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto& e = seen.element[i];
+  look_up(question(false), pixels, [&](const RasterLookup& seen, std::size_t first) {
+    std::int32_t run = -1;
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // of the run
+    for (std::size_t i = 0; i < seen.at.size; ++i) {
+      const auto& f = seen.face(i);
+      if (f.chunk == RasterLookup::kNoChunk) continue;
+      if (seen.at.run[i] != run) normal = f.side * map_->table()[f.chunk].geometry->face_normal(f.face);
+      run = seen.at.run[i];
       const std::size_t p = pixels[first + i];
-      if (!e.texels) continue;
-      if (e.texels != chunk || e.face != face) normal = map_->table()[e.texels->chunk].geometry->face_normal(e.face);
-      chunk = e.texels;
-      face = e.face;
       write_pixel(seen, i, normal, out, p);
       if (channels > 0)
         read_color(*map_, options_.linear_texels, seen, i, channels, &out.color[channels * p], &out.color_variance[p]);

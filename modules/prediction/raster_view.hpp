@@ -32,9 +32,11 @@ class RasterView final : public DeferredView {
                 std::span<std::uint32_t> face) const override;
 
  private:
-  /// Calls body(lookup, first, count) for consecutive parts of the pixels, looked up.
+  /// Calls body(lookup, first) for consecutive parts of the pixels, looked up.
   template <class Body>
-  void look_up(std::span<const std::uint32_t> pixels, const Body& body) const;
+  void look_up(const RasterQuestion& question, std::span<const std::uint32_t> pixels, const Body& body) const;
+
+  RasterQuestion question(bool along_ray) const;
 
   const PpmMap* map_ = nullptr;
   RasterOptions options_;

@@ -13,6 +13,7 @@ using namespace ppm;
 namespace {
 
 const Camera kCamera{176, 144, 150, 150, 87.5, 71.5};
+const int kPoses = std::getenv("POSES") ? std::atoi(std::getenv("POSES")) : 20;
 
 std::shared_ptr<const PpmMap> room(int faces) {
   static std::map<int, std::shared_ptr<const PpmMap>> made;
@@ -63,7 +64,7 @@ void view(benchmark::State& state, Ask ask) {
   std::vector<std::uint32_t> pixels;
   int i = 0;
   for (auto _ : state) {
-    out.reset_deferred(kCamera, static_cast<int>(state.range(1)), room_view(0.3 * (i++ % 20)));
+    out.reset_deferred(kCamera, static_cast<int>(state.range(1)), room_view(0.3 * (i++ % kPoses)));
     back_end.draw(out);
     if (ask == Ask::samples) {
       pixels.resize(static_cast<std::size_t>(out.camera.pixels()));
