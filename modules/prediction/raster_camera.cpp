@@ -17,7 +17,8 @@ int fraction_bits(int largest_side) {
 }  // namespace
 
 RasterCamera raster_camera(const Camera& camera, const Pose& T_map_camera, bool cull) {
-  PPM_CHECK(std::max(camera.cols, camera.rows) < (1 << 15), "an image of {}x{} pixels", camera.cols, camera.rows);
+  const bool fits = std::max(camera.cols, camera.rows) < (1 << 15) && camera.pixels() < (1 << 24);
+  PPM_CHECK(fits, "an image of {}x{} pixels", camera.cols, camera.rows);
   RasterCamera c{};
   c.cols = camera.cols;
   c.rows = c.end_row = camera.rows;

@@ -164,38 +164,44 @@ class Band {
     hn::StoreInterleaved4(t.edge[0].x, t.edge[0].y, t.edge[0].w, slot, df, quad_[3] + 4 * first);
   }
 
-  /// One pixel of each box at a time.
+  /// One pixel of each box at a time: covered ones are listed, then shown.
   void draw_pixels(const Triangles& t, const Boxes& box, MF on, std::uint32_t first) {
     const VF one = hn::Set(df, 1.f), zero = hn::Zero(df), cols = hn::Set(df, static_cast<float>(camera_.cols));
     const VF origin =
-        hn::Set(df, static_cast<float>(camera_.middle_y - camera_.first_row) * static_cast<float>(camera_.cols) +
-                        static_cast<float>(camera_.middle_x));
-    alignas(64) std::int32_t pixel[kLanes];
-    alignas(64) float inverse[kLanes];
+        hn::Set(df, static_cast<float>((camera_.middle_y - camera_.first_row) * camera_.cols + camera_.middle_x));
+    const VU triangle = hn::Iota(du, first);
+    std::size_t listed = 0;
     VF x = box.x0, y = box.y0;
     while (!hn::AllFalse(df, on)) {
       const VF depth = at(t.plane, x, y);
       const MF inside = hn::And(hn::And(hn::Ge(at(t.edge[0], x, y), zero), hn::Ge(at(t.edge[1], x, y), zero)),
                                 hn::And(hn::Ge(at(t.edge[2], x, y), zero), hn::Gt(depth, zero)));
-      hn::Store(depth, df, inverse);
-      hn::Store(hn::ConvertTo(di, hn::Add(hn::Add(hn::Mul(y, cols), x), origin)), di, pixel);
-      for (std::uint32_t bits = bits_of(hn::And(inside, on)); bits != 0; bits &= bits - 1) {
-        const std::size_t k = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-        show(static_cast<std::size_t>(pixel[k]), inverse[k], first + static_cast<std::uint32_t>(k));
-      }
+      const MF covered = hn::And(inside, on);
+      const VI pixel = hn::NearestInt(hn::Add(hn::Add(hn::Mul(y, cols), x), origin));
+      hn::CompressStore(depth, covered, df, list_depth_ + listed);
+      hn::CompressStore(pixel, hn::RebindMask(di, covered), di, list_pixel_ + listed);
+      listed += hn::CompressStore(triangle, hn::RebindMask(du, covered), du, list_triangle_ + listed);
       x = hn::Add(x, one);
       const MF next_row = hn::Gt(x, box.x1);
       x = hn::IfThenElse(next_row, box.x0, x);
       y = hn::IfThenElse(next_row, hn::Add(y, one), y);
       on = hn::And(on, hn::Le(y, box.y1));
     }
+    show_list(listed);
   }
 
-  void show(std::size_t pixel, float inverse_depth, std::uint32_t triangle) {
-    const float old = depth_[pixel];
-    if (inverse_depth < old || (inverse_depth == old && !goes_first(triangle, shown_[pixel]))) return;
-    depth_[pixel] = inverse_depth;
-    shown_[pixel] = triangle;
+  void show_list(std::size_t listed) {
+    float* const depth = depth_;
+    std::uint32_t* const shown = shown_;
+    for (std::size_t i = 0; i < listed; ++i) {
+      const auto pixel = static_cast<std::size_t>(list_pixel_[i]);
+      const float inverse = list_depth_[i], old = depth[pixel];
+      const std::uint32_t triangle = list_triangle_[i], other = shown[pixel];
+      bool nearer = inverse > old;
+      if (inverse == old) nearer = goes_first(triangle, other);
+      depth[pixel] = nearer ? inverse : old;
+      shown[pixel] = nearer ? triangle : other;
+    }
   }
 
   /// Whether a triangle is shown before another at the same depth. Depends on the map alone.
@@ -249,6 +255,11 @@ class Band {
   std::uint32_t* shown_;
   float* depth_;
   float* quad_[4];
+  // Pixels that the faces at hand cover.
+  static constexpr std::size_t kMostListed = (kFewPixels + 1) * kLanes;
+  alignas(64) float list_depth_[kMostListed];
+  alignas(64) std::int32_t list_pixel_[kMostListed];
+  alignas(64) std::uint32_t list_triangle_[kMostListed];
 };
 
 void draw(const RasterCamera& camera, const std::uint32_t* face, const float* vertex, const RasterBoxes& boxes,

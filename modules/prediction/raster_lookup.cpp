@@ -30,12 +30,11 @@ bool offset(const float* from, const float* to, std::int32_t& floats) {
 std::size_t RasterLookup::find(const RasterBand& band, std::span<const std::uint32_t> pixels) {
   take(band, pixels.first(std::min(pixels.size(), RasterRuns::kMost)));
   raster_split(band.shown.data(), runs_, at);
-  runs_.mean_base = runs_.variance_base = nullptr;
-  std::size_t described = 0;
-  while (described < runs_.size && describe(band, described)) ++described;
-  if (described < runs_.size) {  // the rest is looked up from other bases
-    runs_.size = described;
-    const auto* end = std::lower_bound(at.run, at.run + at.size, static_cast<std::int32_t>(described));
+  copy_triangles(band);
+  const std::size_t reached = read_faces();
+  if (reached < runs_.size) {  // the rest is looked up from other bases
+    runs_.size = reached;
+    const auto* end = std::lower_bound(at.run, at.run + at.size, static_cast<std::int32_t>(reached));
     at.size = static_cast<std::size_t>(end - at.run);
     std::fill_n(at.run + at.size, RasterBand::kSpare, at.run[at.size - 1]);
   }
@@ -54,32 +53,46 @@ void RasterLookup::take(const RasterBand& band, std::span<const std::uint32_t> p
   std::fill_n(pixel + at.size, RasterBand::kSpare, pixel[at.size - 1]);
 }
 
-bool RasterLookup::describe(const RasterBand& band, std::size_t run) {
-  const std::uint32_t triangle = runs_.triangle[run];
-  if (triangle == RasterBand::kNone) {
-    describe_miss(run);
-    return true;
+/// The triangles of the runs; asks for what the next step reads.
+void RasterLookup::copy_triangles(const RasterBand& band) {
+  for (std::size_t run = 0; run < runs_.size; ++run) {
+    const std::uint32_t triangle = runs_.triangle[run];
+    const bool miss = triangle == RasterBand::kNone;
+    for (int k = 0; k < 3; ++k)
+      std::memcpy(runs_.quad[k] + 4 * run, miss ? kNoTriangle[k] : band.quad[k].data() + 4 * std::size_t{triangle},
+                  kQuad);
+    Face& f = face_[run];
+    f = {};
+    if (miss) continue;
+    f = {&band.texels_of(triangle), band.face_of(triangle), std::copysign(1.f, runs_.quad[1][4 * run + 3])};
+    hwy::Prefetch(f.texels->first_texel + f.face);
+    hwy::Prefetch(f.texels->evidence + f.face);
+    hwy::Prefetch(f.texels->divisions + f.face);
   }
-  for (int k = 0; k < 3; ++k)
-    std::memcpy(runs_.quad[k] + 4 * run, band.quad[k].data() + 4 * std::size_t{triangle}, kQuad);
-  const RasterTexels& texels = band.texels_of(triangle);
-  const std::uint32_t face = band.face_of(triangle), first = texels.first_texel[face];
-  runs_.divisions[run] = texels.divisions[face];
-  runs_.added_variance[run] = texels.evidence[face].added_variance();
-  face_[run] = {texels.chunk, face, std::copysign(1.f, runs_.quad[1][4 * run + 3])};
-  for (std::uint32_t t = 0; t < texel_count(texels.divisions[face]); t += 16) {
-    hwy::Prefetch(texels.mean + first + t);
-    hwy::Prefetch(texels.variance + first + t);
-  }
-  return reach_texels(run, texels.mean + first, texels.variance + first);
 }
 
-void RasterLookup::describe_miss(std::size_t run) {
-  for (int k = 0; k < 3; ++k) std::memcpy(runs_.quad[k] + 4 * run, kNoTriangle[k], kQuad);
-  runs_.divisions[run] = 1;
-  runs_.added_variance[run] = -1;
-  face_[run] = {};
-  runs_.mean[run] = runs_.variance[run] = 0;  // of whatever face: there are three texels at least
+/// What is known of the runs' faces; asks for their texels. Says how many runs can be looked up together.
+std::size_t RasterLookup::read_faces() {
+  runs_.mean_base = runs_.variance_base = nullptr;
+  for (std::size_t run = 0; run < runs_.size; ++run) {
+    const auto [texels, face, side] = face_[run];
+    if (!texels) {
+      runs_.divisions[run] = 1;
+      runs_.added_variance[run] = -1;
+      runs_.mean[run] = runs_.variance[run] = 0;  // of whatever face: there are three texels at least
+      continue;
+    }
+    const std::uint32_t first = texels->first_texel[face], divisions = texels->divisions[face];
+    const float *mean = texels->mean + first, *variance = texels->variance + first;
+    if (!reach_texels(run, mean, variance)) return run;
+    runs_.divisions[run] = static_cast<float>(divisions);
+    runs_.added_variance[run] = texels->evidence[face].added_variance();
+    for (std::uint32_t t = 0; t < texel_count(divisions); t += 16) {
+      hwy::Prefetch(mean + t);
+      hwy::Prefetch(variance + t);
+    }
+  }
+  return runs_.size;
 }
 
 /// False where the run's texels are too far in memory from those of the runs before.

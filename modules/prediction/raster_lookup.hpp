@@ -16,18 +16,17 @@ class RasterLookup {
 
   /// A face that pixels show.
   struct Face {
-    std::uint32_t chunk = kNoChunk, face = 0;  ///< kNoChunk: a miss
-    float side = 1;                            ///< -1: seen from behind
+    const RasterTexels* texels = nullptr;  ///< of its chunk; null: a miss
+    std::uint32_t face = 0;
+    float side = 1;  ///< -1: seen from behind
   };
-  static constexpr std::uint32_t kNoChunk = 0xffffffffu;
-  /// The face of a pixel. Also its runs' number: pixels of the same run show the same.
   const Face& face(std::size_t i) const { return face_[at.run[i]]; }
   RasterPixels at;
 
  private:
   void take(const RasterBand& band, std::span<const std::uint32_t> pixels);
-  bool describe(const RasterBand& band, std::size_t run);
-  void describe_miss(std::size_t run);
+  void copy_triangles(const RasterBand& band);
+  std::size_t read_faces();
   bool reach_texels(std::size_t run, const float* mean, const float* variance);
 
   RasterCamera camera_;

@@ -14,7 +14,7 @@ namespace {
 /// Writes colour [channels] and its variance at a pixel that shows a face.
 void read_color(const PpmMap& map, bool linear, const RasterLookup& seen, std::size_t i, std::size_t channels,
                 float* color, float* variance) {
-  const PpmChunk& chunk = map.table()[seen.face(i).chunk];
+  const PpmChunk& chunk = map.table()[seen.face(i).texels->chunk];
   const std::uint32_t f = seen.face(i).face;
   const ColorSample c = linear ? linear_color(*chunk.geometry, *chunk.texels, f, seen.at.u[i], seen.at.v[i])
                                : nearest_color(*chunk.geometry, *chunk.texels, f, seen.at.u[i], seen.at.v[i]);
@@ -28,7 +28,7 @@ void write_pixel(const RasterLookup& seen, std::size_t i, const Eigen::Vector3f&
   out.mean[p] = seen.at.mean[i];
   out.variance[p] = seen.at.variance[i];
   Eigen::Map<Eigen::Vector3f>(&out.normal[3 * p]) = normal;
-  out.chunk[p] = seen.face(i).chunk;
+  out.chunk[p] = seen.face(i).texels->chunk;
   out.face[p] = seen.face(i).face;
   out.bary[2 * p] = seen.at.u[i];
   out.bary[2 * p + 1] = seen.at.v[i];
@@ -88,7 +88,7 @@ void RasterView::sample(const Prediction&, std::span<const std::uint32_t> pixels
     std::copy_n(seen.at.variance, seen.at.size, &out.variance[first]);
     std::copy_n(seen.at.cosine, seen.at.size, &out.cosine[first]);
     for (std::size_t i = 0; channels > 0 && i < seen.at.size; ++i)
-      if (seen.face(i).chunk != RasterLookup::kNoChunk)
+      if (seen.face(i).texels)
         read_color(*map_, options_.linear_texels, seen, i, channels, &out.color[channels * (first + i)],
                    &out.color_variance[first + i]);
   });
@@ -104,8 +104,8 @@ void RasterView::fill(const Prediction&, const Rows& rows, Prediction& out) cons
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // of the run
     for (std::size_t i = 0; i < seen.at.size; ++i) {
       const auto& f = seen.face(i);
-      if (f.chunk == RasterLookup::kNoChunk) continue;
-      if (seen.at.run[i] != run) normal = f.side * map_->table()[f.chunk].geometry->face_normal(f.face);
+      if (!f.texels) continue;
+      if (seen.at.run[i] != run) normal = f.side * map_->table()[f.texels->chunk].geometry->face_normal(f.face);
       run = seen.at.run[i];
       const std::size_t p = pixels[first + i];
       write_pixel(seen, i, normal, out, p);
