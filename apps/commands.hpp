@@ -17,5 +17,6 @@ void add_evaluate(CLI::App& app);
 void add_calibrate(CLI::App& app);
 void add_export(CLI::App& app);
 void add_new_module(CLI::App& app);
+void add_bench(CLI::App& app);
 
 }  // namespace ppm

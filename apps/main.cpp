@@ -32,6 +32,7 @@ int run_command(int argc, char** argv) {
   ppm::add_calibrate(app);
   ppm::add_export(app);
   ppm::add_new_module(app);
+  ppm::add_bench(app);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0)

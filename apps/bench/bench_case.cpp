@@ -1,0 +1,61 @@
+#include "apps/bench/bench_case.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace ppm {
+namespace {
+
+bool looks_at_meshes(const ModuleInfo& info) {
+  if (!info.name.starts_with("prediction.")) return false;
+  const auto module = info.make();
+  return std::ranges::any_of(module->ports(), [](const PortBase* port) {
+    if (port->direction() != PortDirection::belief) return false;
+    const auto& needs = static_cast<const BeliefPortBase*>(port)->facets().needs;
+    return std::ranges::find(needs, "map.ppm") != needs.end();
+  });
+}
+
+std::vector<std::string> backends_of(const Registry& registry) {
+  std::vector<std::string> names;
+  for (const ModuleInfo* info : registry.all())
+    if (looks_at_meshes(*info)) names.push_back(info->name);
+  return names;
+}
+
+}  // namespace
+
+std::string BenchCase::name() const {
+  std::string text = group;
+  for (const auto& [key, value] : settings) {
+    const bool word = !std::isdigit(static_cast<unsigned char>(value.front()));
+    text += "/" + (word ? value : key + ":" + value);
+  }
+  return text;
+}
+
+BenchPlan full_plan(const Registry& registry, BenchWorlds& worlds, int threads) {
+  BenchPlan plan{
+      registry, worlds, backends_of(registry), {20000, 100000, 500000}, 176, 32, {8, 128}, {88, 352}, {2, 4, 8, 16},
+      {1},      false};
+  for (int n = 2; n <= threads; n *= 2) plan.threads.push_back(n);
+  if (plan.threads.back() != threads) plan.threads.push_back(threads);
+  return plan;
+}
+
+BenchPlan quick_plan(const Registry& registry, BenchWorlds& worlds, int threads) {
+  BenchPlan plan{registry, worlds, backends_of(registry), {5000}, 44, 4, {}, {}, {4}, {1}, true};
+  if (threads > 1) plan.threads.push_back(threads);
+  return plan;
+}
+
+std::vector<BenchCase> cases_of(const BenchPlan& plan) {
+  std::vector<BenchCase> cases;
+  add_roof_cases(plan, cases);
+  add_view_cases(plan, cases);
+  add_frame_cases(plan, cases);
+  add_map_cases(plan, cases);
+  return cases;
+}
+
+}  // namespace ppm
