@@ -61,13 +61,19 @@ void bench(const BenchOptions& options) {
     return;
   }
   const int rounds = options.rounds.value_or(options.quick ? 1 : 3);
+  std::optional<AtomicFile> file;  // opened first: nothing is measured for a folder that is not there
+  if (!options.json.empty()) file.emplace(options.json);
   Log log;
   const auto results = run_cases(cases, rounds, options.quick ? 1e-3 : 0.1, log);
-  if (!options.json.empty())
-    write_file(options.json, bench_json({processor(), threads, rounds, options.quick}, results));
+  const auto kernels = kernel_shares(plan, results);
+  if (file) {
+    file->write(bench_json({processor(), threads, rounds, options.quick}, results, kernels));
+    file->commit();
+  }
   fmt::print("{}", result_table(results));
   const auto ratios = ratio_table(results);
   if (!ratios.empty()) fmt::print("\n{}", ratios);
+  if (!kernels.empty()) fmt::print("\n{}", kernel_table(kernels));
 }
 
 }  // namespace

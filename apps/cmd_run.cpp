@@ -7,6 +7,7 @@
 #include "apps/accuracy.hpp"
 #include "apps/checkpoint.hpp"
 #include "apps/commands.hpp"
+#include "apps/frame_times.hpp"
 #include "apps/graph_options.hpp"
 #include "apps/progress.hpp"
 #include "apps/run_folder.hpp"
@@ -23,7 +24,7 @@ struct RunOptions {
   std::filesystem::path out, resume;
   std::optional<std::int64_t> frames;
   int threads = 0;
-  bool force = false, quiet = false;
+  bool force = false, quiet = false, times = false;
 };
 
 /// What a run holds, in the order in which it is made.
@@ -38,6 +39,7 @@ struct Run {
   Context context;
   Executor executor;
   CheckpointCosts checkpoints;
+  std::optional<FrameTimes> times;  // where they are asked for
 
   explicit Run(const RunOptions& options)
       : from(options.resume.empty() ? nullptr : std::make_unique<Checkpoint>(options.resume)),
@@ -53,7 +55,7 @@ struct Run {
     if (from) from->check_graph(graph, options.graph.file);
   }
 
-  RunSummary frames(bool quiet) {
+  RunSummary frames(bool quiet, bool keep_times) {
     StopSignal stop;
     if (from) {
       from->restore(executor);
@@ -61,8 +63,10 @@ struct Run {
     }
     const auto before = executor.frames();
     Progress progress(log, before);
+    if (keep_times) times.emplace();
     executor.on_frame = [&](std::int64_t done, std::int64_t expected) {
       if (done == before + 1) begin_folder();
+      if (times) times->add(done - 1);
       if (graph.checkpoint_every() > 0 && done % graph.checkpoint_every() == 0) keep_checkpoint();
       if (!quiet) progress.show(done, expected);
     };
@@ -81,6 +85,7 @@ struct Run {
 
   void write(const RunSummary& summary, const Accuracy& measured) {
     write_file(folder.path() / kEffectiveGraph, graph.effective_yaml());
+    if (times) write_file(folder.path() / "times.csv", times->csv());
     const RunReport report{graph,    summary,  executor.belief(), metrics,          workers,
                            measured, checkpoints, start.graph_file,  folder.written()};
     write_file(folder.path() / "run.json", run_json(report));
@@ -112,7 +117,7 @@ struct Run {
 /// False where the run was interrupted.
 bool run(const RunOptions& options) {
   Run run(options);
-  const RunSummary summary = run.frames(options.quiet);
+  const RunSummary summary = run.frames(options.quiet, options.times);
   Accuracy measured;
   std::exception_ptr broken;  // a held-out frame or a reference pose: the run itself is sound and is written
   try {
@@ -154,6 +159,8 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->type_name("FOLDER");
   command.add_flag("--force", options.force, "Write also into a folder that holds other things than a run");
   command.add_flag("--quiet", options.quiet, "Only warnings and errors");
+  command.add_flag("--times", options.times,
+                   "Also writes times.csv: time and memory of the process, frame by frame (of this part of the run)");
   command
       .add_option("--checkpoint-every", options.graph.checkpoint_every,
                   "Keeps the state of the run each N frames, in place of the graph's checkpoint_every; 0 is never")

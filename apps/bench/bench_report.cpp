@@ -24,7 +24,7 @@ std::vector<Comparison> compare(const std::vector<BenchResult>& results) {
     const auto name = work.name();
     auto row = std::ranges::find(rows, name, &Comparison::work);
     if (row == rows.end()) row = rows.insert(rows.end(), {name, {}});
-    row->ms[r.of->settings.front().second] = r.ms;
+    row->ms[r.of->settings.front().second] = r.ms_best;
   }
   std::erase_if(rows, [](const Comparison& row) { return row.ms.size() < 2; });
   return rows;
@@ -80,7 +80,7 @@ std::string ratio_table(const std::vector<BenchResult>& results) {
   const auto rows = compare(results);
   if (rows.empty()) return "";
   std::size_t width = 0;
-  std::string text = "The same work by each back-end, ms (times as fast as embree):\n";
+  std::string text = "The same work by each back-end, best ms (times as fast as embree):\n";
   for (const auto& row : rows) width = std::max(width, row.work.size());
   for (const auto& row : rows) {
     text += fmt::format("{:<{}}", row.work, width);
@@ -91,7 +91,8 @@ std::string ratio_table(const std::vector<BenchResult>& results) {
   return text;
 }
 
-std::string bench_json(const BenchSession& session, const std::vector<BenchResult>& results) {
+std::string bench_json(const BenchSession& session, const std::vector<BenchResult>& results,
+                       const std::vector<KernelShare>& kernels) {
   Json json = {{"version", PPM_VERSION},
                {"processor", session.processor},
                {"threads", session.threads},
@@ -105,6 +106,15 @@ std::string bench_json(const BenchSession& session, const std::vector<BenchResul
     for (const auto& [backend, ms] : row.ms) ratio["times_as_fast"][backend] = reference_of(row) / ms;
     json["ratios"].push_back(ratio);
   }
+  json["kernels"] = Json::array();
+  for (const auto& k : kernels)
+    json["kernels"].push_back({{"kernel", k.kernel},
+                               {"ms", k.ms},
+                               {"flops", k.flops},
+                               {"bytes", k.bytes},
+                               {"flops_share", k.flops_share},
+                               {"read_share", k.read_share},
+                               {"basis", k.basis}});
   return json.dump(2) + "\n";
 }
 

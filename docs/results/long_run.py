@@ -1,0 +1,88 @@
+"""Page (to stdout) and plot of a run's time and memory by frame: long_run.py RUN_FOLDER PLOT.png"""
+import csv
+import json
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+
+def columns(path, *names):
+    with open(path) as file:
+        rows = list(csv.DictReader(file))
+    return [np.array([float(r[n]) if r[n] else np.nan for r in rows]) for n in names]
+
+
+folder = sys.argv[1]
+with open(folder + "/run.json") as file:
+    run = json.load(file)
+frame, ms, resident = columns(folder + "/times.csv", "frame", "wall_ms", "resident_mb")
+at, owned, alone = columns(folder + "/metrics.csv", "frame", "table.map_bytes_owned", "table.map_bytes_alone")
+known = ~np.isnan(owned)
+at, owned, one = at[known], owned[known] / 1e6, alone[known] / 1e6 / run["particles"]
+share = (owned - one) / (run["particles"] - 1) / one
+
+block = 25  # frames: medians over so many
+starts = np.arange(block, len(frame) - block + 1, block)
+middle = starts + block / 2
+block_ms = np.array([np.median(ms[s:s + block]) for s in starts])
+block_resident = np.array([np.median(resident[s:s + block]) for s in starts])
+block_one, block_owned = np.interp(middle, at, one), np.interp(middle, at, owned)
+
+
+def slope(values, *others):
+    """Per 1,000 frames, what remains when the other columns are taken out by least squares; and its standard error."""
+    A = np.column_stack([np.ones_like(middle), middle / 1000, *others])
+    x, _, _, _ = np.linalg.lstsq(A, values, rcond=None)
+    variance = np.sum((A @ x - values) ** 2) / max(len(values) - A.shape[1], 1)
+    return x[1], np.sqrt(variance * np.linalg.inv(A.T @ A)[1, 1])
+
+
+ms_slope, ms_error = slope(block_ms)
+ms_rest, ms_rest_error = slope(block_ms, block_one)
+resident_rest, resident_error = slope(block_resident - block_owned)
+
+print("# Time and memory over a long run\n")
+print("Written by `bash docs/results/long_run.sh`: SLAM on all images of `kitchen`, "
+      f"{run['frames']} frames, {run['particles']} particles, {run['threads']} threads; "
+      "`configs/kitchen_slam.yaml` with `prediction.raster`, no image held out, without the sinks that draw. Times of frames are of the "
+      "whole process (`ppm run --times`), maps are counted by `sink.metrics`.\n")
+print("![Time and memory by frame](../images/long_run.png)\n")
+print("| | |")
+print("|---|---|")
+print(f"| frames/s over the run | {run['fps']:.1f} |")
+print(f"| time of a frame, median of the first and last 100, ms | {np.median(ms[1:101]):.1f}, {np.median(ms[-100:]):.1f} |")
+print(f"| growth of a frame's time, ms in 1,000 frames | {ms_slope:+.1f} ± {ms_error:.1f} |")
+print(f"| the same with the growth of the map taken out (least squares on frame number and bytes of one map) | {ms_rest:+.1f} ± {ms_rest_error:.1f} |")
+print(f"| one map at the end, MB | {one[-1]:.2f} |")
+print(f"| all maps together at the end; mean, MB | {owned[-1]:.1f}; {np.mean(owned):.1f} |")
+print(f"| a particle beyond the first: share of a map, median over the run; at the end; most (wanted: 5 %) | "
+      f"{100 * np.median(share):.1f} %; {100 * share[-1]:.1f} %; {100 * np.max(share):.1f} % |")
+print(f"| memory of the process at the end, MB | {resident[-1]:.0f} |")
+print(f"| growth of that beyond the maps, MB in 1,000 frames | {resident_rest:+.1f} ± {resident_error:.1f} |")
+print("\nErrors are standard errors of the fit to medians over 25 frames. A particle's share counts all that it does not have in "
+      "common with another: after resampling most particles descend from few, and what their ancestors mapped is theirs together.")
+
+figure, axes = plt.subplots(1, 3, figsize=(12, 3.4), constrained_layout=True)
+axes[0].plot(frame[1:], ms[1:], ".", markersize=2, color="0.7", label="frame")
+axes[0].plot(middle, block_ms, label="median of 25")
+axes[0].set_ylim(0, 1.1 * np.quantile(ms[1:], 0.995))
+axes[0].set_ylabel("time of a frame, ms")
+axes[1].plot(frame, resident, label="process")
+axes[1].plot(at, owned, label=f"maps of {run['particles']} particles")
+axes[1].plot(at, one, label="one map")
+axes[1].set_ylabel("memory, MB")
+axes[1].set_ylim(0, None)
+axes[2].plot(at, 100 * share)
+axes[2].axhline(5, color="0.5", linestyle="--")
+axes[2].set_ylabel("a particle beyond the first, % of a map")
+axes[2].set_ylim(0, None)
+for axis in axes:
+    axis.set_xlabel("frame")
+    axis.grid(alpha=0.3)
+for axis in axes[:2]:
+    axis.legend()
+figure.savefig(sys.argv[2], dpi=90)
