@@ -32,6 +32,7 @@ class PpmBayesUpdate final : public MapEditor {
   void before(Context& context) override {
     settings_.share();
     seen_.resize(context.threads());
+    scratch_.resize(context.threads());
   }
 
   MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) override {
@@ -44,7 +45,8 @@ class PpmBayesUpdate final : public MapEditor {
                                    settings_.texels);
     }
     const PredictionHandle whole = completed(view, completed_, context.workers());
-    return update_map(std::move(mesh), *frame, *whole, settings_, context.frame() / keyframe_every_, context.workers());
+    return update_map(std::move(mesh), *frame, *whole, settings_, context.frame() / keyframe_every_, context.workers(),
+                      scratch_[worker]);
   }
 
  private:
@@ -256,6 +258,7 @@ class PpmBayesUpdate final : public MapEditor {
   double keyframe_misses_ = 0.1;
   PredictionPool completed_;
   PerWorker<VisibleFaces> seen_;
+  PerWorker<UpdateScratch> scratch_;
 };
 
 }  // namespace

@@ -149,12 +149,13 @@ void keyframe(benchmark::State& state) {
   auto own = particles(map);
   UpdateSettings settings;
   settings.share();
+  UpdateScratch scratch;
   std::size_t i = 0;
   for (auto _ : state) {
     const Place& place = from[i % from.size()];
     auto& m = own[i % own.size()];
     m = update_map(std::move(m), place.frame, *place.whole, settings, static_cast<std::int64_t>(i++),
-                   test::one_worker());
+                   test::one_worker(), scratch);
   }
   report(state, map, from);
 }

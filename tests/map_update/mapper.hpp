@@ -49,7 +49,7 @@ class Mapper {
   UpdateCounts add(const Frame& frame) {
     const auto seen = predict(frame.camera, *frame.T_world_camera_ref);
     UpdateCounts counts;
-    map_ = update_map(std::move(map_), frame, seen, settings_, frames_++, workers_, &counts);
+    map_ = update_map(std::move(map_), frame, seen, settings_, frames_++, workers_, scratch_, &counts);
     map_->check();
     return counts;
   }
@@ -71,6 +71,7 @@ class Mapper {
   Workers workers_{1};
   EmbreeScenes scenes_{EmbreeOptions{}};
   std::int64_t frames_ = 0;
+  UpdateScratch scratch_;
 };
 
 }  // namespace ppm::test

@@ -114,14 +114,15 @@ TEST_CASE("with a prediction of every second pixel the update works on that grid
   seen.reset(frame.camera, 2, *frame.T_world_camera_ref);
   UpdateSettings settings;
   settings.share();
+  UpdateScratch scratch;
   const auto map =
-      update_map(std::make_shared<const PpmMap>(PpmSettings{}), frame, seen, settings, 0, test::one_worker());
+      update_map(std::make_shared<const PpmMap>(PpmSettings{}), frame, seen, settings, 0, test::one_worker(), scratch);
   map->check();
   CHECK(map->stats().faces > 8);
   CHECK(map->stats().faces < 60);  // 40x30 pixels in leaves of 16
   Prediction wrong;
   wrong.reset(frame.camera.decimated(2), 1, *frame.T_world_camera_ref);
-  CHECK_THROWS_AS(update_map(map, frame, wrong, settings, 1, test::one_worker()), InternalError);
+  CHECK_THROWS_AS(update_map(map, frame, wrong, settings, 1, test::one_worker(), scratch), InternalError);
 }
 
 TEST_CASE("an update with nothing new changes no face") {

@@ -6,6 +6,7 @@
 #include "tests/map_update/mapper.hpp"
 #include "tests/map_update/views.hpp"
 #include "tests/support/ppm_maps.hpp"
+#include "tests/support/simd_targets.hpp"
 
 using namespace ppm;
 using namespace ppm::test;
@@ -40,6 +41,31 @@ TEST_CASE("visible faces are those of the view's pixels, each once and ascending
     CHECK(seen.miss_share() == Approx(static_cast<double>(missed) / static_cast<double>(measured)));
     CHECK(missed > 0);
   }
+}
+
+TEST_CASE("visible faces are the same on every instruction set") {
+  Mapper mapper;
+  const BoxWorld scene;
+  const Frame frame = scene.frame(small_camera(), look({0, 0, 0}), 0.004, 0, true);
+  mapper.add(frame);
+  const int stride = GENERATE(1, 2);
+  const Prediction view = mapper.predict(small_camera(), look({0, 0, 0}, 0.2), stride);
+  std::set<std::vector<std::uint32_t>> lists;
+  std::set<double> shares;
+  on_every_target([&] {
+    VisibleFaces seen;
+    seen.collect(mapper.map(), view, frame);
+    std::vector<std::uint32_t> list;
+    for (const auto& part : seen.parts()) {
+      list.push_back(part.chunk);
+      list.insert(list.end(), part.faces.begin(), part.faces.end());
+    }
+    lists.insert(list);
+    shares.insert(seen.miss_share());
+  });
+  CHECK(lists.size() == 1);
+  CHECK(shares.size() == 1);
+  CHECK(*shares.begin() > 0);
 }
 
 TEST_CASE("an image without measurements misses nothing") {

@@ -70,7 +70,7 @@ class MapLife {
     Prediction seen;
     seen.reset(frame.camera, 1, pose);
     trace_view(*map, scenes_.of(*map), EmbreeViewOptions{}, all_rows(seen.camera), seen);
-    return update_map(std::move(map), frame, seen, update_, frames_++, workers_);
+    return update_map(std::move(map), frame, seen, update_, frames_++, workers_, scratch_);
   }
   std::shared_ptr<const PpmMap> adjust(std::shared_ptr<const PpmMap> map) {
     AdjustCounts counts;
@@ -95,6 +95,7 @@ class MapLife {
   Workers workers_{1};
   EmbreeScenes scenes_{EmbreeOptions{}};
   std::uint32_t frames_ = 0;
+  UpdateScratch scratch_;
   std::uint32_t particle_ = 0;
 };
 

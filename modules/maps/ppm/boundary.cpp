@@ -7,10 +7,12 @@
 namespace ppm {
 
 void Boundary::build(const PpmMap& map, const UpdateView& view, const std::vector<FaceRef>& removed) {
+  for (const auto& v : vertex)
+    if (v.id < number_of_id_.size()) number_of_id_[v.id] = kNone;
+  number_of_id_.resize(map.vertex_ids(), kNone);
   vertex.clear();
   first_.clear();
   links_.clear();
-  number_of_id_.assign(map.vertex_ids(), kNone);
   const auto chunks = chunks_in_image(map, view.camera, view.prediction->T_map_camera);
   for (auto c : chunks) read_open_edges(*map.table()[c].geometry, view);
   pair_chunk_borders();
@@ -18,12 +20,14 @@ void Boundary::build(const PpmMap& map, const UpdateView& view, const std::vecto
   for (auto c : chunks) read_shared_edges(*map.table()[c].geometry, c, removed);
 }
 
-std::uint32_t Boundary::number_of(const Geometry& geometry, std::uint32_t local, const UpdateView& view) {
-  auto& number = number_of_id_[geometry.vertex_id[local]];
+/// The number of the vertex with that id, which the chunk has.
+std::uint32_t Boundary::number_of(const Geometry& geometry, std::uint32_t id, const UpdateView& view) {
+  auto& number = number_of_id_[id];
   if (number == kNone) {
     number = static_cast<std::uint32_t>(vertex.size());
+    const auto local = geometry.find_vertex(id);
     const auto& position = geometry.position[local];
-    vertex.push_back({geometry.vertex_id[local], position, view.relative(position), geometry.normal[local]});
+    vertex.push_back({id, position, view.relative(position), geometry.normal[local]});
     first_.push_back(kNone);
   }
   return number;
@@ -31,8 +35,7 @@ std::uint32_t Boundary::number_of(const Geometry& geometry, std::uint32_t local,
 
 void Boundary::read_open_edges(const Geometry& geometry, const UpdateView& view) {
   for (const auto& [from, to] : geometry.open_edge)
-    link(number_of(geometry, geometry.find_vertex(from), view), number_of(geometry, geometry.find_vertex(to), view),
-         Kind::open);
+    link(number_of(geometry, from, view), number_of(geometry, to, view), Kind::open);
 }
 
 void Boundary::pair_chunk_borders() {
@@ -49,8 +52,8 @@ void Boundary::pair_chunk_borders() {
 
 void Boundary::take_away(const Geometry& geometry, std::uint32_t face, const UpdateView& view) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto a = number_of(geometry, geometry.face[face][k], view);
-    const auto b = number_of(geometry, geometry.face[face][(k + 1) % 3], view);
+    const auto a = number_of(geometry, geometry.vertex_id[geometry.face[face][k]], view);
+    const auto b = number_of(geometry, geometry.vertex_id[geometry.face[face][(k + 1) % 3]], view);
     if (is_open(a, b)) {
       unlink(a, b, Kind::open);
       continue;

@@ -60,7 +60,7 @@ class Boundary {
   };
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  std::uint32_t number_of(const Geometry& geometry, std::uint32_t local, const UpdateView& view);
+  std::uint32_t number_of(const Geometry& geometry, std::uint32_t id, const UpdateView& view);
   void read_open_edges(const Geometry& geometry, const UpdateView& view);
   void pair_chunk_borders();
   void take_away(const Geometry& geometry, std::uint32_t face, const UpdateView& view);

@@ -181,11 +181,12 @@ void DisparityImage::build(const UpdateView& view, const std::vector<std::uint8_
     sigma[p] = view.sigma[p] * value[p] * value[p];
   }
   if (radius == 0) return;
-  const DisparityImage raw = *this;
+  std::vector<float> smooth = value;
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < cols; ++x)
-      if (wanted[at(x, y)] && raw.value[at(x, y)] == raw.value[at(x, y)])
-        value[at(x, y)] = smoothed(raw, x, y, radius, pair_sigmas);
+      if (wanted[at(x, y)] && value[at(x, y)] == value[at(x, y)])
+        smooth[at(x, y)] = smoothed(*this, x, y, radius, pair_sigmas);
+  value.swap(smooth);
 }
 
 std::vector<Leaf> disparity_leaves(const DisparityImage& image, const std::vector<std::uint8_t>& wanted,
@@ -194,7 +195,9 @@ std::vector<Leaf> disparity_leaves(const DisparityImage& image, const std::vecto
 }
 
 std::vector<LeafCorner> leaf_corners(const DisparityImage& image, const std::vector<Leaf>& leaves, float fit_sigmas) {
-  std::vector<Meeting> meetings(image.value.size());
+  std::vector<int> number(image.value.size(), -1);  // [px] of the meeting there
+  std::vector<Meeting> meetings;
+  meetings.reserve(2 * leaves.size());
   for (const Leaf& leaf : leaves)
     for (int k = 0; k < 4; ++k) {
       const int x = std::min(leaf.x + (k & 1) * leaf.size, image.cols - 1),
@@ -202,7 +205,11 @@ std::vector<LeafCorner> leaf_corners(const DisparityImage& image, const std::vec
       const auto p = image.at(x, y);
       const float d = leaf.disparity(x, y);
       if (d <= 0 || std::abs(d - image.value[p]) > fit_sigmas * image.sigma[p]) continue;
-      Meeting& m = meetings[p];
+      if (number[p] < 0) {
+        number[p] = static_cast<int>(meetings.size());
+        meetings.emplace_back();
+      }
+      Meeting& m = meetings[static_cast<std::size_t>(number[p])];
       m.least = m.leaves ? std::min(m.least, d) : d;
       m.most = m.leaves ? std::max(m.most, d) : d;
       m.spacing = m.leaves ? std::min(m.spacing, leaf.size) : leaf.size;
@@ -214,8 +221,8 @@ std::vector<LeafCorner> leaf_corners(const DisparityImage& image, const std::vec
   std::vector<LeafCorner> corners;
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) {
-      const Meeting& m = meetings[image.at(x, y)];
-      if (m.leaves == 0) continue;
+      if (number[image.at(x, y)] < 0) continue;
+      const Meeting& m = meetings[static_cast<std::size_t>(number[image.at(x, y)])];
       const auto n = static_cast<float>(m.leaves);
       const float mean = m.sum / n;
       const bool measured = image.value[image.at(x, y)] == image.value[image.at(x, y)];

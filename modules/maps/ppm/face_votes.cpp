@@ -2,65 +2,82 @@
 
 #include <algorithm>
 
-#include "modules/maps/ppm/texel_update.hpp"
-
 namespace ppm {
 namespace {
 
-float cosine_at(const UpdateView& view, std::size_t p) {
-  return std::min(std::abs(view.normal[p].dot(view.point[p])) / view.point[p].norm(), 1.0f);
-}
-
 constexpr float kFarthest = 9;  // times the predicted variance: squares beyond 3 standard deviations count as if there
 
-/// Squared distance of a measurement from the surface predicted at its own pixel, minus its predicted variance, m^2.
-float surplus(const UpdateView& view, std::size_t p, float cosine) {
-  const float off = view.normal[p].dot(view.point[p]) - view.offset[p];
-  const float lateral = view.lateral_px * view.depth[p] * std::abs(view.inv_fx);
-  const float predicted = view.prediction->variance[p] + variance_along_normal(view.sigma[p], cosine, lateral);
-  return std::min(off * off, kFarthest * predicted) - predicted;
+/// Squared cosine of incidence at a pixel's own surface.
+float squared_cosine(const UpdateView& view, std::size_t p) {
+  const float along = view.normal[p].dot(view.point[p]);
+  return std::min(along * along / view.point[p].squaredNorm(), 1.0f);
 }
 
-/// Pixels that see through the map in areas at least 2 radius + 1 pixels thick.
-std::vector<std::uint8_t> wide_behind(const UpdateView& view, const std::vector<std::uint8_t>& classes, int radius) {
-  std::vector<std::uint8_t> behind(classes.size());
-  const std::vector<std::uint8_t> none(classes.size());
-  for (std::size_t p = 0; p < classes.size(); ++p) behind[p] = (classes[p] & kBehind) != 0;
-  open_mask(view.cols(), view.rows(), radius, none, behind);
-  return behind;
+/// Squared distance of a measurement from the surface predicted at its own pixel, minus its predicted variance, m^2.
+float surplus(const UpdateView& view, std::size_t p, float cosine2) {
+  const float off = view.normal[p].dot(view.point[p]) - view.offset[p];
+  const float lateral = view.lateral_px * view.depth[p] * view.inv_fx, sigma = view.sigma[p];
+  const float predicted = view.prediction->variance[p] + sigma * sigma * cosine2 + lateral * lateral * (1 - cosine2);
+  return std::min(off * off, kFarthest * predicted) - predicted;
 }
 
 }  // namespace
 
-std::vector<FaceTally> tally_faces(const PpmMap& map, const UpdateView& view,
-                                   const std::vector<std::uint8_t>& classes, const VoteSettings& settings) {
-  struct Votes {
-    std::uint16_t seen = 0, hits = 0, through = 0, wide = 0;
-    float surplus = 0;
-  };
-  const auto wide = wide_behind(view, classes, settings.forget_radius);
-  std::vector<std::vector<Votes>> votes(map.table().size());  // by chunk and face; empty for chunks that no ray met
+const std::vector<FaceTally>& FaceTallies::count(const PpmMap& map, const UpdateView& view,
+                                                 const std::vector<std::uint8_t>& classes,
+                                                 const VoteSettings& settings) {
+  find_wide(view, classes, settings.forget_radius);
+  for (auto c : chunks_) first_[c] = kNone;  // of the frame before
+  first_.resize(map.table().size(), kNone);
+  chunks_.clear();
+  votes_.clear();
   const Prediction& seen = *view.prediction;
+  const float cosine2_least = settings.cosine_least * settings.cosine_least;
   for (std::size_t p = 0; p < classes.size(); ++p) {
     if (!seen.hit(p)) continue;
-    auto& chunk = votes[seen.chunk[p]];
-    if (chunk.empty()) chunk.resize(map.table()[seen.chunk[p]].geometry->face.size());
-    Votes& v = chunk[seen.face[p]];
+    Votes& v = votes_of(map, seen.chunk[p], seen.face[p]);
     ++v.seen;
     if (classes[p] & kOwnHit) {
-      const float cosine = cosine_at(view, p);
-      if (cosine < settings.cosine_least) continue;
+      const float cosine2 = squared_cosine(view, p);
+      if (cosine2 < cosine2_least) continue;
       ++v.hits;
-      v.surplus += surplus(view, p, cosine);
+      v.surplus += surplus(view, p, cosine2);
     }
     v.through += (classes[p] & kBehind) != 0;
-    v.wide += wide[p] != 0;
+    v.wide += wide_[p] != 0;
   }
-  std::vector<FaceTally> tallies;
-  for (std::uint32_t c = 0; c < votes.size(); ++c)
-    for (std::uint32_t f = 0; f < votes[c].size(); ++f)
-      if (const Votes& v = votes[c][f]; v.seen) tallies.push_back({{c, f}, v.hits, v.through, v.surplus, v.hits == 0 && 2 * v.wide > v.seen});
-  return tallies;
+  list(map);
+  return tallies_;
+}
+
+/// Pixels that see through the map in areas at least 2 radius + 1 pixels thick.
+void FaceTallies::find_wide(const UpdateView& view, const std::vector<std::uint8_t>& classes, int radius) {
+  wide_.resize(classes.size());
+  none_.assign(classes.size(), 0);
+  bool any = false;
+  for (std::size_t p = 0; p < classes.size(); ++p) {
+    wide_[p] = (classes[p] & kBehind) != 0;
+    any |= wide_[p] != 0;
+  }
+  if (any) open_mask(view.cols(), view.rows(), radius, none_, wide_);
+}
+
+FaceTallies::Votes& FaceTallies::votes_of(const PpmMap& map, std::uint32_t chunk, std::uint32_t face) {
+  if (first_[chunk] == kNone) {
+    first_[chunk] = static_cast<std::uint32_t>(votes_.size());
+    votes_.resize(votes_.size() + map.table()[chunk].geometry->face.size());
+    chunks_.push_back(chunk);
+  }
+  return votes_[first_[chunk] + face];
+}
+
+void FaceTallies::list(const PpmMap& map) {
+  std::sort(chunks_.begin(), chunks_.end());
+  tallies_.clear();
+  for (auto c : chunks_)
+    for (std::uint32_t f = 0; f < map.table()[c].geometry->face.size(); ++f)
+      if (const Votes& v = votes_[first_[c] + f]; v.seen)
+        tallies_.push_back({{c, f}, v.hits, v.through, v.surplus, v.hits == 0 && 2 * v.wide > v.seen});
 }
 
 float learn_excess(const std::vector<FaceTally>& tallies, const ExcessSettings& settings, PpmEdit& edit) {

@@ -120,22 +120,25 @@ std::vector<std::vector<std::uint32_t>> small_loops(const Boundary& boundary, co
                                                     int edges_most) {
   std::vector<Loop> loops;
   std::vector<int> place(usable.size(), -1);  // in the path, or -1
-  std::vector<std::uint32_t> ends;
-  std::vector<std::vector<std::uint32_t>> left(usable.size());  // ends of open edges that no path has used
+  // Ends of open edges that no path has used: those of vertex v in ends[first[v]] .. ends[last[v] - 1].
+  std::vector<std::uint32_t> ends, first(usable.size()), last(usable.size()), of_one;
   for (std::uint32_t v = 0; v < usable.size(); ++v) {
-    if (!usable[v]) continue;
-    boundary.open_from(v, ends);
-    for (auto e : ends)
-      if (usable[e]) left[v].push_back(e);
-    std::sort(left[v].begin(), left[v].end(), std::greater<>());
+    first[v] = static_cast<std::uint32_t>(ends.size());
+    if (usable[v]) {
+      boundary.open_from(v, of_one);
+      for (auto e : of_one)
+        if (usable[e]) ends.push_back(e);
+      std::sort(ends.begin() + first[v], ends.end(), std::greater<>());
+    }
+    last[v] = static_cast<std::uint32_t>(ends.size());
   }
+  const auto has_left = [&](std::uint32_t v) { return last[v] > first[v]; };
   for (std::uint32_t start = 0; start < usable.size(); ++start)
-    while (!left[start].empty()) {
+    while (has_left(start)) {
       Loop path{start};
       place[start] = 0;
-      while (!path.empty() && !left[path.back()].empty()) {
-        const auto next = left[path.back()].back();
-        left[path.back()].pop_back();
+      while (!path.empty() && has_left(path.back())) {
+        const auto next = ends[--last[path.back()]];
         if (place[next] < 0) {
           place[next] = static_cast<int>(path.size());
           path.push_back(next);

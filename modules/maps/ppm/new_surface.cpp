@@ -187,7 +187,6 @@ class SurfaceMaker {
 void make_surface(const UpdateView& view, const std::vector<std::uint8_t>& classes,
                   const std::vector<std::uint8_t>& wanted, const NewSurfaceSettings& settings, Boundary& boundary,
                   std::vector<RimFace>& faces) {
-  if (std::none_of(wanted.begin(), wanted.end(), [](auto w) { return w != 0; })) return;
   SurfaceMaker(view, classes, wanted, settings, boundary).run(faces);
 }
 

@@ -16,6 +16,7 @@ class NotchFiller {
   void run() {
     const auto n = static_cast<std::uint32_t>(boundary_.vertex.size());
     into_.resize(n);
+    starts_.reserve(2 * n);
     pixel_.resize(n);
     usable_.resize(n);
     for (std::uint32_t v = 0; v < n; ++v) {
@@ -28,7 +29,7 @@ class NotchFiller {
     std::vector<std::uint32_t> ends;
     for (std::uint32_t v = 0; v < n; ++v) {
       boundary_.open_from(v, ends);
-      for (auto e : ends) into_[e].push_back(v);
+      for (auto e : ends) add_into(e, v);
       if (usable_[v] && !ends.empty()) bucket(v).push_back(v);
       if (usable_[v] && !ends.empty()) todo_.push_back(v);
     }
@@ -41,6 +42,22 @@ class NotchFiller {
 
  private:
   static constexpr int kCell = 8;  // px
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  struct Start {
+    std::uint32_t vertex, next;
+  };
+  struct Into {
+    std::uint32_t first = kNone, last = kNone;  // in starts_
+  };
+
+  /// Notes an open edge from `start`, after those that end there already.
+  void add_into(std::uint32_t end, std::uint32_t start) {
+    const auto number = static_cast<std::uint32_t>(starts_.size());
+    starts_.push_back({start, kNone});
+    Into& into = into_[end];
+    (into.first == kNone ? into.first : starts_[into.last].next) = number;
+    into.last = number;
+  }
 
   std::vector<std::uint32_t>& bucket(std::uint32_t v) {
     if (buckets_.empty())
@@ -53,13 +70,14 @@ class NotchFiller {
   void visit(std::uint32_t q) {
     boundary_.open_from(q, ends_);
     for (auto r : ends_)
-      for (auto p : into_[q]) {
+      for (auto i = into_[q].first; i != kNone; i = starts_[i].next) {
+        const auto p = starts_[i].vertex;
         if (p == r || !usable_[p] || !usable_[r] || !boundary_.is_open(p, q) || !is_notch(p, q, r)) continue;
         const RimFace face{p, r, q};
         if (!boundary_.accepts(face) || !is_good(face)) continue;
         boundary_.add(face);
         faces_.push_back(face);
-        if (boundary_.is_open(p, r)) into_[r].push_back(p);
+        if (boundary_.is_open(p, r)) add_into(r, p);
         todo_.push_back(p);
         todo_.push_back(r);
         return;
@@ -111,8 +129,9 @@ class NotchFiller {
   const NotchSettings& settings_;
   Boundary& boundary_;
   std::vector<RimFace>& faces_;
-  std::vector<std::vector<std::uint32_t>> into_,
-      buckets_;  // starts of open edges into a vertex; vertices by cell of the image
+  std::vector<Into> into_;  // by vertex: the starts of open edges into it
+  std::vector<Start> starts_;
+  std::vector<std::vector<std::uint32_t>> buckets_;  // vertices by cell of the image
   std::vector<Eigen::Vector2f> pixel_;
   std::vector<std::uint8_t> usable_;
   std::deque<std::uint32_t> todo_;

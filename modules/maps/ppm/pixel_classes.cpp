@@ -3,45 +3,69 @@
 namespace ppm {
 namespace {
 
+/// Squared distance that still fits, m^2, for a point at `along` a surface's normal from the camera. range2: its
+/// squared range, m^2.
+float squared_limit(const SurfaceGate& gate, float gate_sigmas, float sigma, float along, float range2,
+                    float variance) {
+  const float cosine2 = std::max(along * along / range2, gate.least_cosine * gate.least_cosine);
+  return gate_sigmas * gate_sigmas *
+         (sigma * sigma * cosine2 + gate.pose_sigma * gate.pose_sigma +
+          std::min(variance, gate.map_sigma_most * gate.map_sigma_most));
+}
+
 bool fits_neighbour(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas,
                     const std::vector<std::uint8_t>& gone, int x, int y) {
   const auto p = view.at(x, y);
+  const float range2 = view.point[p].squaredNorm();
   for (int v = std::max(0, y - 1); v <= std::min(view.rows() - 1, y + 1); ++v)
     for (int u = std::max(0, x - 1); u <= std::min(view.cols() - 1, x + 1); ++u) {
       const auto q = view.at(u, v);
       if (q == p || !view.prediction->hit(q) || (!gone.empty() && gone[q])) continue;
-      if (std::abs(surface_distance(view, gate, p, q)) <= gate_sigmas) return true;
+      const float along = view.normal[q].dot(view.point[p]), off = along - view.offset[q];
+      if (off * off <= squared_limit(gate, gate_sigmas, view.sigma[p], along, range2, view.prediction->variance[q]))
+        return true;
     }
   return false;
 }
 
-/// One pass of a running minimum or maximum of width 2 radius + 1 along a line, by counting set entries in the window.
-/// all: set where all entries of the window are set (those beyond the line count as set), else where any is.
-void slide(const std::uint8_t* in, std::uint8_t* out, int n, int step, int radius, bool all) {
-  int set = 0, seen = 0;
-  for (int i = 0; i < std::min(radius, n); ++i) set += in[i * step], ++seen;
-  for (int i = 0; i < n; ++i) {
-    if (i + radius < n) set += in[(i + radius) * step], ++seen;
-    if (i - radius - 1 >= 0) set -= in[(i - radius - 1) * step], --seen;
-    out[i * step] = all ? set == seen : set > 0;
+/// Combines each entry of a line with those up to `radius` before and after it: all of them set, or any. Beyond the
+/// line counts as what changes nothing.
+void slide_along(std::uint8_t* line, int n, int radius, bool all, std::vector<std::uint8_t>& padded) {
+  padded.assign(static_cast<std::size_t>(n + 2 * radius), all);
+  std::copy_n(line, n, padded.begin() + radius);
+  std::copy_n(padded.begin(), n, line);
+  for (int k = 1; k <= 2 * radius; ++k) {
+    const std::uint8_t* const shifted = padded.data() + k;
+    if (all)
+      for (int i = 0; i < n; ++i) line[i] &= shifted[i];
+    else
+      for (int i = 0; i < n; ++i) line[i] |= shifted[i];
+  }
+}
+
+/// The same over columns, a row at a time. in, out: [rows*cols], distinct.
+void slide_across(int cols, int rows, int radius, bool all, const std::uint8_t* in, std::uint8_t* out) {
+  for (int y = 0; y < rows; ++y) {
+    std::uint8_t* const line = out + y * cols;
+    std::fill_n(line, cols, static_cast<std::uint8_t>(all));
+    for (int v = std::max(0, y - radius); v <= std::min(rows - 1, y + radius); ++v) {
+      const std::uint8_t* const other = in + v * cols;
+      if (all)
+        for (int x = 0; x < cols; ++x) line[x] &= other[x];
+      else
+        for (int x = 0; x < cols; ++x) line[x] |= other[x];
+    }
   }
 }
 
 void slide_both(int cols, int rows, int radius, bool all, std::vector<std::uint8_t>& mask) {
-  std::vector<std::uint8_t> half(mask.size());
-  for (int y = 0; y < rows; ++y)
-    slide(&mask[static_cast<std::size_t>(y * cols)], &half[static_cast<std::size_t>(y * cols)], cols, 1, radius, all);
-  for (int x = 0; x < cols; ++x)
-    slide(&half[static_cast<std::size_t>(x)], &mask[static_cast<std::size_t>(x)], rows, cols, radius, all);
+  std::vector<std::uint8_t> padded, whole(mask.size());
+  for (int y = 0; y < rows; ++y) slide_along(mask.data() + y * cols, cols, radius, all, padded);
+  slide_across(cols, rows, radius, all, mask.data(), whole.data());
+  mask.swap(whole);
 }
 
 }  // namespace
-
-float surface_distance(const UpdateView& view, const SurfaceGate& gate, std::size_t p, std::size_t q) {
-  const float along = view.normal[q].dot(view.point[p]);
-  const float cosine = std::abs(along) / view.point[p].norm();
-  return (along - view.offset[q]) / gate.spread(view.sigma[p], cosine, view.prediction->variance[q]);
-}
 
 void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas,
                      const std::vector<std::uint8_t>& gone, const Workers& workers,
@@ -53,8 +77,10 @@ void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate
       if (!view.measured(p)) continue;
       std::uint8_t c = 0;
       if (view.prediction->hit(p) && (gone.empty() || !gone[p])) {
-        const float distance = surface_distance(view, gate, p, p);
-        c = std::abs(distance) <= gate_sigmas ? kOwnHit | kExplained : distance > 0 ? kInFront : kBehind;
+        const float along = view.normal[p].dot(view.point[p]), off = along - view.offset[p];
+        const float limit2 = squared_limit(gate, gate_sigmas, view.sigma[p], along, view.point[p].squaredNorm(),
+                                           view.prediction->variance[p]);
+        c = off * off <= limit2 ? kOwnHit | kExplained : off > 0 ? kInFront : kBehind;
       }
       if (!(c & kExplained) && fits_neighbour(view, gate, gate_sigmas, gone, x, y)) c |= kExplained;
       if (!(c & (kExplained | kBehind))) c |= kWanted;

@@ -33,10 +33,6 @@ enum PixelClass : std::uint8_t {
   kWanted = 16,  ///< measured, unexplained, not behind: candidate for new surface
 };
 
-/// Distance of pixel p's measured point from the surface predicted at pixel q, along q's normal, in gate spreads,
-/// positive in front. Needs a measurement at p and a hit at q.
-float surface_distance(const UpdateView& view, const SurfaceGate& gate, std::size_t p, std::size_t q);
-
 /// Classes of all pixels [px]: 0 without a measurement. gate_sigmas: how many spreads still fit.
 /// gone: pixels [px] whose predicted face was deleted count as misses; empty = none.
 void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate_sigmas,
@@ -44,7 +40,7 @@ void classify_pixels(const UpdateView& view, const SurfaceGate& gate, float gate
 
 /// Removes the parts of a mask that are thinner than 2 radius + 1 pixels (erosion, then dilation, by a square). Pixels
 /// of `ignored` (set = neither inside nor outside) do not make their surroundings thin. Pixels beyond the image do not
-/// either.
+/// either. Entries: 0 and 1.
 void open_mask(int cols, int rows, int radius, const std::vector<std::uint8_t>& ignored,
                std::vector<std::uint8_t>& mask);
 

@@ -69,16 +69,18 @@ class FaceWriter {
   std::vector<float> mean_, variance_, color_, color_variance_;
 };
 
-/// Pixels where surface may be made in this frame.
-std::vector<std::uint8_t> wanted_pixels(const UpdateView& view, const std::vector<std::uint8_t>& classes,
-                                        int open_radius) {
-  std::vector<std::uint8_t> wanted(classes.size()), unknown(classes.size());
+/// Sets scratch.wanted: pixels where surface may be made in this frame. Returns how many there are.
+std::size_t find_wanted(int open_radius, UpdateScratch& scratch) {
+  const UpdateView& view = scratch.view;
+  const auto& classes = scratch.classes;
+  scratch.wanted.resize(classes.size());
+  scratch.unknown.resize(classes.size());
   for (std::size_t p = 0; p < classes.size(); ++p) {
-    wanted[p] = (classes[p] & kWanted) != 0;
-    unknown[p] = !view.measured(p);
+    scratch.wanted[p] = (classes[p] & kWanted) != 0;
+    scratch.unknown[p] = !view.measured(p);
   }
-  if (open_radius > 0) open_mask(view.cols(), view.rows(), open_radius, unknown, wanted);
-  return wanted;
+  if (open_radius > 0) open_mask(view.cols(), view.rows(), open_radius, scratch.unknown, scratch.wanted);
+  return static_cast<std::size_t>(std::count(scratch.wanted.begin(), scratch.wanted.end(), 1));
 }
 
 bool is_due(int every, std::int64_t frame) {
@@ -93,47 +95,45 @@ void UpdateSettings::share() {
 
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame,
                                          const Prediction& prediction, const UpdateSettings& settings,
-                                         std::int64_t frame_number, const Workers& workers, UpdateCounts* counts) {
-  UpdateView view;
+                                         std::int64_t frame_number, const Workers& workers, UpdateScratch& scratch,
+                                         UpdateCounts* counts) {
+  UpdateView& view = scratch.view;
   view.build(frame, prediction, workers);
-  std::vector<std::uint8_t> classes;
+  auto& classes = scratch.classes;
   classify_pixels(view, settings.gate, settings.classify_sigmas, {}, workers, classes);
 
   PpmEdit edit(std::move(map));
-  const auto tallies = tally_faces(edit.map(), view, classes, settings.votes);
+  const auto& tallies = scratch.tallies.count(edit.map(), view, classes, settings.votes);
   const float excess = learn_excess(tallies, settings.excess, edit);
   const std::vector<FaceRef> removed = cast_votes(tallies, settings.votes, edit);
-  std::vector<FaceRef> kept;
+  scratch.kept.clear();
   for (const auto& t : tallies)
-    if (!std::binary_search(removed.begin(), removed.end(), t.face)) kept.push_back(t.face);
+    if (!std::binary_search(removed.begin(), removed.end(), t.face)) scratch.kept.push_back(t.face);
   if (!removed.empty()) {
     for (const auto& f : removed) edit.remove_face(f.chunk, f.face);
-    std::vector<std::uint8_t> gone;
-    mark_pixels(view, removed, gone);
-    classify_pixels(view, settings.gate, settings.classify_sigmas, gone, workers, classes);
+    mark_pixels(view, removed, scratch.gone);
+    classify_pixels(view, settings.gate, settings.classify_sigmas, scratch.gone, workers, classes);
   }
   const ColorView colors(frame, view, classes, edit.map().settings().color_channels, settings.color);
-  update_texels(view, classes, kept, settings.texels, workers, edit);
-  update_color(view, colors, classes, kept, settings.texels, workers, edit);
+  update_texels(view, classes, scratch.kept, settings.texels, workers, edit);
+  update_color(view, colors, classes, scratch.kept, settings.texels, workers, edit);
 
-  Boundary boundary;
+  Boundary& boundary = scratch.boundary;
   boundary.build(edit.map(), view, removed);
-  std::vector<RimFace> faces;
-  const auto wanted =
-      wanted_pixels(view, classes, is_due(settings.thin_every, frame_number) ? 0 : settings.open_radius);
+  auto& faces = scratch.faces;
+  faces.clear();
+  const auto wanted = find_wanted(is_due(settings.thin_every, frame_number) ? 0 : settings.open_radius, scratch);
   NewSurfaceSettings surface = settings.surface;
   if (is_due(settings.grazing_every, frame_number)) surface.triangle.cosine_least = settings.grazing_cosine;
   NotchSettings notches = settings.notches;
   notches.triangle = surface.triangle;
-  make_surface(view, classes, wanted, surface, boundary, faces);
+  if (wanted > 0) make_surface(view, classes, scratch.wanted, surface, boundary, faces);
   const auto made = faces.size();
   fill_notches(view, classes, notches, boundary, faces);
   fill_holes(view, settings.holes, boundary, faces);
   FaceWriter writer(view, colors, settings.texels, excess, boundary, edit);
   for (const auto& f : faces) writer.write(f);
-  if (counts)
-    *counts = {static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1)), made, faces.size() - made,
-               removed.size()};
+  if (counts) *counts = {wanted, made, faces.size() - made, removed.size()};
   return edit.commit();
 }
 

@@ -36,6 +36,16 @@ struct UpdateSettings {
   void share();
 };
 
+/// Memory that updates use one after the other, so that none is allocated anew for each.
+struct UpdateScratch {
+  UpdateView view;
+  std::vector<std::uint8_t> classes, gone, wanted, unknown;  // [px]
+  FaceTallies tallies;
+  std::vector<FaceRef> kept;
+  Boundary boundary;
+  std::vector<RimFace> faces;
+};
+
 /// What an update did.
 struct UpdateCounts {
   std::size_t wanted_pixels = 0, new_faces = 0, filled_faces = 0, removed_faces = 0;
@@ -44,10 +54,11 @@ struct UpdateCounts {
 /// The map after one frame: pixels are classified against the prediction, faces voted on and removed, texels updated,
 /// new surface made and stitched on, slits and small holes closed. A pure function of its arguments: the same bytes
 /// each time. map: moved in; where it is the only handle its memory is reused. prediction: of this map at the frame's
-/// pose. frame_number: of the run, from 0. workers: share the parts that no order binds.
+/// pose. frame_number: counts updates of the run, from 0. workers: share the parts that no order binds. scratch: the
+/// calling thread's own.
 std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, const Frame& frame,
                                          const Prediction& prediction, const UpdateSettings& settings,
-                                         std::int64_t frame_number, const Workers& workers,
+                                         std::int64_t frame_number, const Workers& workers, UpdateScratch& scratch,
                                          UpdateCounts* counts = nullptr);
 
 /// The light update of frames that bring nothing new: the texels of the faces in view take the image's offsets in the

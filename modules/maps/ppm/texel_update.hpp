@@ -72,7 +72,7 @@ std::array<Eigen::Vector3f, 3> corners_in(const UpdateView& view, const Geometry
 void for_each_face(const std::vector<FaceRef>& faces, const Workers& workers, PpmEdit& edit,
                    const std::function<void(const Geometry&, std::uint32_t face, Texels&)>& body);
 
-/// Updates the texels of the faces in view. `faces`: those that rays met (see tally_faces), without the removed ones.
+/// Updates the texels of the faces in view. `faces`: those that rays met (see FaceTallies), without the removed ones.
 /// The scatter form uses the pixels of class kOwnHit.
 void update_texels(const UpdateView& view, const std::vector<std::uint8_t>& classes, const std::vector<FaceRef>& faces,
                    const TexelSettings& settings, const Workers& workers, PpmEdit& edit);

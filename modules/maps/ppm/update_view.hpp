@@ -65,6 +65,11 @@ class UpdateView {
   std::vector<Eigen::Vector3f> point;   ///< [px] measured point; NaN = no return
   std::vector<Eigen::Vector3f> normal;  ///< [px] of the predicted element, unit, facing the camera; 0 at a miss
   std::vector<float> offset;            ///< [px] the described surface's plane: normal . x = offset; 0 at a miss
+
+ private:
+  void set_camera(const Camera& grid, const Pose& T_map_camera);
+
+  std::vector<float> inverse_length_;  // [px] of ray(), 1 / its length
 };
 
 }  // namespace ppm

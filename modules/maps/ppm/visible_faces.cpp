@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "framework/core/error.hpp"
+#include "modules/maps/ppm/element_rows.hpp"
 
 namespace ppm {
 namespace {
@@ -34,23 +35,23 @@ void VisibleFaces::mark_rows(const PpmMap& map, const Prediction& view, const Fr
   const auto cols = static_cast<std::size_t>(view.camera.cols), stride = static_cast<std::size_t>(view.stride);
   chunk_.resize(static_cast<std::size_t>(rows.end - rows.first) * cols);
   face_.resize(chunk_.size());
+  starts_.resize(cols + kStartsPad);
   view.elements(rows, chunk_, face_);
-  std::uint32_t chunk = kNone, face = kNone, first = 0;  // of the last pixel
-  std::size_t p = 0;
   for (int y = rows.first; y < rows.end; ++y) {
-    const float* depth =
-        &frame.depth[static_cast<std::size_t>(y) * stride * static_cast<std::size_t>(frame.camera.cols)];
-    for (std::size_t x = 0; x < cols; ++x, ++p, depth += stride) {
-      const bool measured = *depth == *depth;
-      measured_ += measured;
-      missed_ += measured && chunk_[p] == Prediction::kNone;
-      if ((chunk_[p] == chunk && face_[p] == face) || chunk_[p] == Prediction::kNone) continue;
-      if (chunk_[p] != chunk) first = first_word(map, chunk_[p]);
-      chunk = chunk_[p];
-      face = face_[p];
-      seen_[first + face / kWord] |= std::uint64_t{1} << (face % kWord);
-    }
+    const auto at = static_cast<std::size_t>(y - rows.first) * cols;
+    const auto source = static_cast<std::size_t>(y) * stride * static_cast<std::size_t>(frame.camera.cols);
+    const ElementRow row{&chunk_[at], &face_[at], &frame.depth[source], stride, cols};
+    const RowCounts counts = read_row(row, starts_.data());
+    measured_ += counts.measured;
+    missed_ += counts.missed;
+    for (std::size_t i = 0; i < counts.starts; ++i)
+      if (const auto p = starts_[i]; row.chunk[p] != Prediction::kNone) mark(map, row.chunk[p], row.face[p]);
   }
+}
+
+void VisibleFaces::mark(const PpmMap& map, std::uint32_t chunk, std::uint32_t face) {
+  const std::uint32_t first = first_word(map, chunk);
+  seen_[first + face / kWord] |= std::uint64_t{1} << (face % kWord);
 }
 
 std::uint32_t VisibleFaces::first_word(const PpmMap& map, std::uint32_t chunk) {

@@ -32,9 +32,11 @@ class VisibleFaces {
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
   void mark_rows(const PpmMap& map, const Prediction& view, const Frame& frame, const Rows& rows);
+  void mark(const PpmMap& map, std::uint32_t chunk, std::uint32_t face);
   std::uint32_t first_word(const PpmMap& map, std::uint32_t chunk);
   void list(const PpmMap& map);
 
+  std::vector<std::uint32_t> starts_;        // of a row
   std::vector<std::uint32_t> chunk_, face_;  // of some rows
   std::vector<std::uint32_t> first_word_;    // by chunk: of its faces in seen_, kNone for chunks that no row showed
   std::vector<std::uint32_t> chunks_;        // those that rows showed
