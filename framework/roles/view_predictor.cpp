@@ -25,6 +25,8 @@ ViewPredictor::ViewPredictor(const std::string& map_facet, Views views)
 
 void ViewPredictor::expect(const Camera&, const std::vector<ExpectedView>&) {}
 
+void ViewPredictor::give(const Camera&, const std::vector<std::size_t>&, Context&) {}
+
 std::shared_ptr<DeferredView> ViewPredictor::defer(const Map&, const Prediction&) const {
   return nullptr;
 }
@@ -51,51 +53,57 @@ void ViewPredictor::before(Context& context) {
   particles.prediction.assign(particles.size(), nullptr);
   const auto leader = twins(particles, false);
   std::vector<std::size_t> views, shared;
-  std::vector<ExpectedView> expected;
-  for (std::size_t i = 0; i < leader.size(); ++i) {
-    if (leader[i] == i) {
-      views.push_back(i);
-      expected.push_back({particles.map[i].get(), particles.pose[i]});
-    } else {
-      shared.push_back(leader[i]);
-    }
-  }
-  expect(frame->camera.decimated(stride_), expected);
+  for (std::size_t i = 0; i < leader.size(); ++i) (leader[i] == i ? views : shared).push_back(leader[i]);
+  give(frame->camera.decimated(stride_), views, context);
+  std::erase_if(views, [&](std::size_t i) { return particles.prediction[i] != nullptr; });
+  std::erase_if(shared, [&](std::size_t i) { return particles.prediction[i] != nullptr; });
   std::sort(shared.begin(), shared.end());
   shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+
+  auto views_of = [&](const std::vector<std::size_t>& of) {
+    std::vector<ExpectedView> expected;
+    for (auto i : of) expected.push_back({particles.map[i].get(), particles.pose[i]});
+    return expected;
+  };
+  expect(frame->camera.decimated(stride_), views_of(views));
   const bool few = views.size() < 2 * static_cast<std::size_t>(context.workers().threads());
-  predict_in_bands(few ? views : shared, context.workers());
+  const auto& now = few ? views : shared;
+  auto made = predict_in_bands(frame->camera, stride_, views_of(now), context.workers());
+  for (std::size_t k = 0; k < now.size(); ++k) particles.prediction[now[k]] = std::move(made[k]);
   for (std::size_t i = 0; i < leader.size(); ++i) particles.prediction[i] = particles.prediction[leader[i]];
 }
 
-void ViewPredictor::predict_in_bands(const std::vector<std::size_t>& particles, const Workers& workers) {
-  std::vector<std::shared_ptr<Prediction>> views(particles.size());
-  workers.for_each(views.size(), [&](std::size_t k, int) { views[k] = blank_view(particles[k]); });
-  if (views.empty()) return;
-  const int rows = views.front()->camera.rows;
+std::vector<std::shared_ptr<Prediction>> ViewPredictor::predict_in_bands(const Camera& camera, int stride,
+                                                                         const std::vector<ExpectedView>& views,
+                                                                         const Workers& workers) {
+  std::vector<std::shared_ptr<Prediction>> made(views.size());
+  workers.for_each(views.size(), [&](std::size_t k, int) { made[k] = blank_view(camera, stride, views[k]); });
+  if (views.empty()) return made;
+  const int rows = made.front()->camera.rows;
   const auto bands = static_cast<std::size_t>((rows + kBandRows - 1) / kBandRows);
   workers.for_each(bands * views.size(), [&](std::size_t i, int worker) {
     const std::size_t k = i / bands;
     const int first = static_cast<int>(i % bands) * kBandRows;
-    predict(*belief->map[particles[k]], {first, std::min(first + kBandRows, rows)}, *views[k], worker);
+    predict(*views[k].map, {first, std::min(first + kBandRows, rows)}, *made[k], worker);
   });
-  for (std::size_t k = 0; k < views.size(); ++k) belief->prediction[particles[k]] = std::move(views[k]);
+  return made;
 }
 
 void ViewPredictor::tick(Context&, std::size_t particle, int worker) {
   auto& prediction = belief->prediction[particle];
   if (prediction) return;
-  auto view = blank_view(particle);
-  predict(*belief->map[particle], all_rows(view->camera), *view, worker);
+  const Map& map = *belief->map[particle];
+  auto view = blank_view(frame->camera, stride_, {&map, belief->pose[particle]});
+  predict(map, all_rows(view->camera), *view, worker);
   prediction = std::move(view);
 }
 
-std::shared_ptr<Prediction> ViewPredictor::blank_view(std::size_t particle) {
+std::shared_ptr<Prediction> ViewPredictor::blank_view(const Camera& camera, int stride, const ExpectedView& view) {
   auto out = pool_.take();
-  const Map& map = *belief->map[particle];
-  out->reset_deferred(frame->camera, stride_, belief->pose[particle], map.color_channels());
-  auto deferred = defer(map, *out);
-  if (!deferred) out->reset(frame->camera, stride_, belief->pose[particle], map.color_channels());
+  const int channels = view.map->color_channels();
+  out->reset_deferred(camera, stride, view.T_map_camera, channels);
+  auto deferred = defer(*view.map, *out);
+  if (!deferred) out->reset(camera, stride, view.T_map_camera, channels);
   out->deferred = std::move(deferred);
   return out;
 }

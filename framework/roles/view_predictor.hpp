@@ -27,6 +27,9 @@ class ViewPredictor : public ParticleModule {
     const Map* map = nullptr;
     Pose T_map_camera = Pose::Identity();
   };
+  /// Sets the predictions of some particles otherwise than by predict(); those that are left are predicted. particles:
+  /// one of each that share map and pose. camera: of their predictions. After prepare(), from one thread.
+  virtual void give(const Camera& camera, const std::vector<std::size_t>& particles, Context& context);
   /// The views that the loop over particles is going to ask for, each once, for back-ends that draw many together;
   /// others may be asked for all the same. camera: of all of them. After prepare(), from one thread.
   virtual void expect(const Camera& camera, const std::vector<ExpectedView>& views);
@@ -50,9 +53,14 @@ class ViewPredictor : public ParticleModule {
   /// map_facet: the kind of map that it can look at, "map.ppm".
   explicit ViewPredictor(const std::string& map_facet, Views views = Views::exact);
 
+  /// Views for one camera, each predicted in bands of rows by all workers. For give().
+  std::vector<std::shared_ptr<Prediction>> predict_in_bands(const Camera& camera, int stride,
+                                                            const std::vector<ExpectedView>& views,
+                                                            const Workers& workers);
+  int stride() const { return stride_; }
+
  private:
-  std::shared_ptr<Prediction> blank_view(std::size_t particle);
-  void predict_in_bands(const std::vector<std::size_t>& particles, const Workers& workers);
+  std::shared_ptr<Prediction> blank_view(const Camera& camera, int stride, const ExpectedView& view);
 
   int stride_ = 1;
   PredictionPool pool_;

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cstring>
-#include <hwy/targets.h>
 
 #include "modules/weighting/range_kernels.hpp"
 #include "tests/support/range_reference.hpp"
+#include "tests/support/simd_targets.hpp"
 
 using namespace ppm;
 
@@ -17,18 +17,6 @@ void check_equal(const ViewScore& fast, const ViewScore& exact) {
   CHECK(fast.hits == exact.hits);
   CHECK(fast.misses == exact.misses);
   CHECK(fast.outliers == exact.outliers);
-}
-
-template <class Check>
-void on_every_target(const Check& check) {
-  for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    CAPTURE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    check();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 }  // namespace
@@ -68,7 +56,7 @@ TEST_CASE("a certain map without sensor noise has the least variance") {
 }
 
 TEST_CASE("likelihood kernels give no number for what is none, on every target") {
-  on_every_target([] {
+  test::on_every_target([] {
     for (auto array : {&test::RangePixels::expected_range, &test::RangePixels::expected_variance,
                        &test::RangePixels::cosine, &test::RangePixels::variance})
       for (std::size_t at : {3, 20, 97}) {
@@ -92,7 +80,7 @@ TEST_CASE("likelihood kernels give the same bytes on every target") {
   const RangeArrays a = pixels.arrays(0, 1017);
   const ViewScore gaussian = gaussian_score(a, true), mixture = mixture_score(a, kTerms);
   std::size_t targets = 0;
-  on_every_target([&] {
+  test::on_every_target([&] {
     ++targets;
     const ViewScore g = gaussian_score(a, true), m = mixture_score(a, kTerms);
     CHECK(std::memcmp(&g, &gaussian, sizeof g) == 0);
