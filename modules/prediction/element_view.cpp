@@ -57,6 +57,27 @@ void sample_hit(const PpmMap& map, bool linear_texels, const ElementHits& hits, 
   out.color_variance[i] = color.variance;
 }
 
+void fill_hit(const PpmMap& map, bool linear_texels, const ElementHits& hits, std::size_t at,
+              const Eigen::Vector3f& normal, std::size_t p, Prediction& out) {
+  const PpmChunk& chunk = map.table()[hits.chunk[at]];
+  const std::uint32_t f = hits.face[at];
+  const float u = hits.u[at], v = hits.v[at], side = hits.facing[at] < 0 ? -1.f : 1.f;
+  const TexelSample texel = texel_at(linear_texels, chunk, f, u, v);
+  out.range[p] = hits.range[at];
+  out.mean[p] = side * texel.mean;  // along the turned normal
+  out.variance[p] = texel.variance;
+  for (int k = 0; k < 3; ++k) out.normal[3 * p + static_cast<std::size_t>(k)] = side * normal[k];
+  out.chunk[p] = hits.chunk[at];
+  out.face[p] = f;
+  out.bary[2 * p] = u;
+  out.bary[2 * p + 1] = v;
+  if (out.color_channels == 0) return;
+  const ColorSample color = color_at(linear_texels, chunk, f, u, v);
+  const auto n = static_cast<std::size_t>(out.color_channels);
+  std::copy_n(color.mean.begin(), n, &out.color[n * p]);
+  out.color_variance[p] = color.variance;
+}
+
 void ElementView::sample(const Prediction&, std::span<const std::uint32_t> pixels, ViewSamples& out) const {
   for (std::size_t i = 0; i < pixels.size(); ++i) sample_hit(*map_, linear_texels_, hits_, pixels[i], i, out);
 }
@@ -73,7 +94,7 @@ void ElementView::fill(const Prediction& view, const Rows& rows, Prediction& out
     if (c != last_chunk || f != last_face) normal = map_->table()[c].geometry->face_normal(f);
     last_chunk = c;
     last_face = f;
-    fill_pixel(p, normal, out);
+    fill_hit(*map_, linear_texels_, hits_, p, normal, p, out);
   }
 }
 
@@ -85,26 +106,6 @@ void ElementView::elements(const Prediction& view, const Rows& rows, std::span<s
   std::copy_n(&hits_.chunk[first], chunk.size(), chunk.begin());
   for (std::size_t i = 0; i < face.size(); ++i)
     face[i] = chunk[i] == Prediction::kNone ? Prediction::kNone : hits_.face[first + i];
-}
-
-void ElementView::fill_pixel(std::size_t p, const Eigen::Vector3f& normal, Prediction& out) const {
-  const PpmChunk& chunk = map_->table()[hits_.chunk[p]];
-  const std::uint32_t f = hits_.face[p];
-  const float u = hits_.u[p], v = hits_.v[p], side = hits_.facing[p] < 0 ? -1.f : 1.f;
-  const TexelSample texel = texel_at(linear_texels_, chunk, f, u, v);
-  out.range[p] = hits_.range[p];
-  out.mean[p] = side * texel.mean;  // along the turned normal
-  out.variance[p] = texel.variance;
-  for (int k = 0; k < 3; ++k) out.normal[3 * p + static_cast<std::size_t>(k)] = side * normal[k];
-  out.chunk[p] = hits_.chunk[p];
-  out.face[p] = f;
-  out.bary[2 * p] = u;
-  out.bary[2 * p + 1] = v;
-  if (out.color_channels == 0) return;
-  const ColorSample color = color_at(linear_texels_, chunk, f, u, v);
-  const auto n = static_cast<std::size_t>(out.color_channels);
-  std::copy_n(color.mean.begin(), n, &out.color[n * p]);
-  out.color_variance[p] = color.variance;
 }
 
 }  // namespace ppm

@@ -25,6 +25,11 @@ struct ElementHits {
 void sample_hit(const PpmMap& map, bool linear_texels, const ElementHits& hits, std::size_t at, std::size_t i,
                 ViewSamples& out);
 
+/// Pixel p of a view's arrays from hit `at` of the record, which is one; colour where `out` has it. normal: unit, of the
+/// face.
+void fill_hit(const PpmMap& map, bool linear_texels, const ElementHits& hits, std::size_t at,
+              const Eigen::Vector3f& normal, std::size_t p, Prediction& out);
+
 /// A deferred view of a mesh map, made of such a record: attributes are read from the map's texels when asked for.
 class ElementView final : public DeferredView {
  public:
@@ -39,8 +44,6 @@ class ElementView final : public DeferredView {
                 std::span<std::uint32_t> face) const override;
 
  private:
-  void fill_pixel(std::size_t p, const Eigen::Vector3f& normal, Prediction& out) const;
-
   const PpmMap* map_ = nullptr;
   bool linear_texels_ = true;
   ElementHits hits_;

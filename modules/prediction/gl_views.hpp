@@ -8,6 +8,7 @@
 
 #include "framework/core/pool.hpp"
 #include "framework/slam/prediction.hpp"
+#include "modules/prediction/face_view.hpp"
 #include "modules/prediction/gl_rasterizer.hpp"
 
 namespace ppm {
@@ -17,13 +18,6 @@ struct GlViewOptions {
   GlDevice device = GlDevice::any;
   bool cull_back_faces = true;
   int views_per_draw = 10;  ///< 1 .. GlRasterizer::kMostViews
-};
-
-/// The faces that a view sees.
-struct SeenFaces {
-  std::shared_ptr<const std::vector<std::uint32_t>> drawn;  ///< owns what `number` refers to
-  std::span<const std::uint32_t> number;                    ///< [rows*cols], by `faces`; FaceNumbers::kNone = nothing
-  const FaceNumbers* faces = nullptr;                       ///< of the map; lives until the next update()
 };
 
 /// Views of mesh maps by OpenGL. Views that were announced are drawn in batches: the first worker that needs one of a
@@ -39,9 +33,9 @@ class GlViews {
   void update(const std::vector<const PpmMap*>& maps);
   /// Says which views are going to be asked for; forgets those of before.
   void expect(const Camera& camera, std::vector<GlView> views);
-  /// The faces that rows of a view see (those of all rows are given). Draws, if need be, its batch; or the view alone
-  /// where it was not expected. From any thread.
-  SeenFaces faces(const PpmMap& map, const Camera& camera, const Pose& T_map_camera, const Rows& rows);
+  /// The faces that a view shows. Draws, if need be, its batch; or the view alone where it was not expected. From any
+  /// thread.
+  ShownFaces faces(const PpmMap& map, const Camera& camera, const Pose& T_map_camera);
 
   const std::string& renderer() const { return context_.renderer(); }
   const GlMeshes& meshes() const { return *meshes_; }
@@ -50,8 +44,8 @@ class GlViews {
   using Numbers = std::vector<std::uint32_t>;
   // Expected views side by side, drawn together.
   struct Batch {
-    std::shared_ptr<const Numbers> drawn;  // null before it is drawn, and after all rows were asked for
-    int rows_left = 0;
+    std::shared_ptr<const Numbers> drawn;  // null before it is drawn, and after all views were asked for
+    std::size_t views_left = 0;
   };
   std::shared_ptr<const Numbers> draw(const Camera& camera, std::span<const GlView> views);
 
@@ -59,7 +53,7 @@ class GlViews {
   GlContext context_;
   std::unique_ptr<GlMeshes> meshes_;
   std::unique_ptr<GlRasterizer> rasterizer_;
-  std::unordered_map<const PpmMap*, FaceNumbers> numbers_;
+  std::unordered_map<const PpmMap*, std::shared_ptr<const FaceNumbers>> numbers_;
   std::mutex mutex_;  // guards the context and all below
   Camera camera_;
   std::vector<GlView> expected_;

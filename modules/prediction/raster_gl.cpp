@@ -4,8 +4,6 @@
 #include "framework/graph/registry.hpp"
 #include "framework/roles/view_predictor.hpp"
 #include "modules/maps/ppm/ppm_map.hpp"
-#include "modules/prediction/element_view.hpp"
-#include "modules/prediction/face_hits.hpp"
 #include "modules/prediction/gl_views.hpp"
 
 namespace {
@@ -77,15 +75,12 @@ class GlPredictor final : public ViewPredictor {
   }
 
   std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const override {
-    auto view = records_.take();
-    view->start(as_ppm(map), linear_texels_, static_cast<std::size_t>(out.camera.pixels()));
-    return view;
+    const PpmMap& mesh = as_ppm(map);
+    return std::make_shared<FaceView>(mesh, linear_texels_, views_->faces(mesh, out.camera, out.T_map_camera));
   }
 
-  void predict(const Map& map, const Rows& rows, Prediction& out, int) const override {
-    const SeenFaces seen = views_->faces(as_ppm(map), out.camera, out.T_map_camera, rows);
-    hits_of_faces(as_ppm(map), *seen.faces, seen.number, rows, out, static_cast<ElementView&>(*out.deferred).hits());
-  }
+  /// defer() drew all rows.
+  void predict(const Map&, const Rows&, Prediction&, int) const override {}
 
  private:
   // The device is opened on first use: options are known only then.
@@ -96,7 +91,6 @@ class GlPredictor final : public ViewPredictor {
 
   GlViewOptions options_;
   bool linear_texels_ = true;
-  mutable Pool<ElementView> records_;
   std::unique_ptr<GlViews> views_;
 };
 

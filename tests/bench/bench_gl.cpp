@@ -9,8 +9,6 @@
 #include "framework/core/rng.hpp"
 #include "modules/maps/ppm/meshed_room.hpp"
 #include "modules/maps/ppm/visible_chunks.hpp"
-#include "modules/prediction/element_view.hpp"
-#include "modules/prediction/face_hits.hpp"
 #include "modules/prediction/gl_views.hpp"
 
 using namespace ppm;
@@ -64,7 +62,7 @@ void draw(benchmark::State& state) {
   for (auto _ : state) {
     gl.expect(kCamera, views);
     for (const auto& view : views)
-      benchmark::DoNotOptimize(gl.faces(*map, kCamera, view.T_map_camera, all_rows(kCamera)).number.data());
+      benchmark::DoNotOptimize(gl.faces(*map, kCamera, view.T_map_camera).number.data());
   }
   report(state, n);
 }
@@ -96,19 +94,23 @@ void cull(benchmark::State& state) {
   state.counters["of"] = static_cast<double>(map->table().size());
 }
 
-// And after it: where each pixel's ray meets its face.
-void hits(benchmark::State& state) {
+// And after it: every `range(1)`-th pixel and row of a drawn view, as a likelihood asks for it.
+void samples(benchmark::State& state) {
   const auto map = room(static_cast<int>(state.range(0)));
+  const auto step = static_cast<int>(state.range(1));
   GlViews gl({});
   gl.update({map.get()});
-  const auto view = views_of(*map, 1).front();
-  const SeenFaces seen = gl.faces(*map, kCamera, view.T_map_camera, all_rows(kCamera));
-  Prediction out;
-  out.reset_deferred(kCamera, 1, view.T_map_camera);
-  ElementHits found;
+  Prediction view;
+  view.reset_deferred(kCamera, 1, views_of(*map, 1).front().T_map_camera);
+  const FaceView faces(*map, true, gl.faces(*map, kCamera, view.T_map_camera));
+  std::vector<std::uint32_t> pixels;
+  for (int y = 0; y < kCamera.rows; y += step)
+    for (int x = 0; x < kCamera.cols; x += step) pixels.push_back(static_cast<std::uint32_t>(y * kCamera.cols + x));
+  ViewSamples out;
+  out.resize(pixels.size());
   for (auto _ : state) {
-    found.reset(static_cast<std::size_t>(kCamera.pixels()));
-    hits_of_faces(*map, *seen.faces, seen.number, all_rows(kCamera), out, found);
+    faces.sample(view, pixels, out);
+    benchmark::DoNotOptimize(out.range.data());
   }
   report(state, 1);
 }
@@ -123,7 +125,7 @@ void register_all() {
   };
   for (int faces : {20000, 100000}) {
     add("cull", cull)->Arg(faces);
-    add("hits", hits)->Arg(faces);
+    add("samples", samples)->Args({faces, 1})->Args({faces, 4});
     add("draw", draw)->Args({faces, 100, 1})->Args({faces, 100, 10})->Args({faces, 100, 100});
   }
   for (int views : {1, 10, 100}) add("clear_and_read", clear_and_read)->Arg(views);
