@@ -17,7 +17,7 @@ constexpr float kNoTexels[3] = {};
 constexpr std::size_t kQuad = sizeof kNoTriangle[0];
 
 /// The distance between two places in memory, in floats; false where it does not fit.
-bool offset(const float* from, const float* to, std::int32_t& floats) {
+inline bool offset(const float* from, const float* to, std::int32_t& floats) {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max() / 2;  // room for texels of a face
   const std::int64_t bytes = reinterpret_cast<std::intptr_t>(to) - reinterpret_cast<std::intptr_t>(from);
   const std::int64_t count = bytes / static_cast<std::int64_t>(sizeof(float));
@@ -84,7 +84,9 @@ std::size_t RasterLookup::read_faces() {
     }
     const std::uint32_t first = texels->first_texel[face], divisions = texels->divisions[face];
     const float *mean = texels->mean + first, *variance = texels->variance + first;
-    if (!reach_texels(run, mean, variance)) return run;
+    if (!runs_.mean_base) runs_.mean_base = mean, runs_.variance_base = variance;
+    if (!offset(runs_.mean_base, mean, runs_.mean[run]) || !offset(runs_.variance_base, variance, runs_.variance[run]))
+      return run;
     runs_.divisions[run] = static_cast<float>(divisions);
     runs_.added_variance[run] = texels->evidence[face].added_variance();
     for (std::uint32_t t = 0; t < texel_count(divisions); t += 16) {
@@ -93,15 +95,6 @@ std::size_t RasterLookup::read_faces() {
     }
   }
   return runs_.size;
-}
-
-/// False where the run's texels are too far in memory from those of the runs before.
-bool RasterLookup::reach_texels(std::size_t run, const float* mean, const float* variance) {
-  if (!runs_.mean_base) {
-    runs_.mean_base = mean;
-    runs_.variance_base = variance;
-  }
-  return offset(runs_.mean_base, mean, runs_.mean[run]) && offset(runs_.variance_base, variance, runs_.variance[run]);
 }
 
 }  // namespace ppm

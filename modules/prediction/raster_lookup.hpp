@@ -27,7 +27,6 @@ class RasterLookup {
   void take(const RasterBand& band, std::span<const std::uint32_t> pixels);
   void copy_triangles(const RasterBand& band);
   std::size_t read_faces();
-  bool reach_texels(std::size_t run, const float* mean, const float* variance);
 
   RasterCamera camera_;
   RasterQuestion question_;

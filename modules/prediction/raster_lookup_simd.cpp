@@ -93,8 +93,15 @@ class RunsOfPixels {
   VI index_;
 };
 
-/// Image coordinates of pixels.
+/// Image coordinates of pixels; short where they are neighbours in a row.
 void place(const RasterCamera& camera, const std::int32_t* pixel, VF& x, VF& y) {
+  constexpr auto lanes = static_cast<std::int32_t>(kLanes);
+  const std::int32_t first_row = pixel[0] / camera.cols, first_col = pixel[0] - first_row * camera.cols;
+  if (pixel[lanes - 1] - pixel[0] == lanes - 1 && first_col + lanes <= camera.cols) {
+    x = hn::Iota(df, static_cast<float>(first_col - camera.middle_x));
+    y = hn::Set(df, static_cast<float>(first_row + camera.first_row - camera.middle_y));
+    return;
+  }
   const VF cols = hn::Set(df, static_cast<float>(camera.cols)), zero = hn::Zero(df), one = hn::Set(df, 1.f);
   const VF p = hn::ConvertTo(df, hn::Load(di, pixel));
   VF row = hn::Floor(hn::Mul(p, hn::Set(df, 1.f / static_cast<float>(camera.cols))));
