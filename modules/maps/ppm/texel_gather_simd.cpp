@@ -61,8 +61,9 @@ struct FaceInView {
   float step_i[3], step_j[3];  // m, from texel to texel
   /// The distance of a measured point from the face's plane: depth * (x * slope_x + y * slope_y + slope) - offset.
   float slope_x, slope_y, slope, offset;
-  float texel_area;  // m^2, that one texel stands for
-  float excess;      // m^2
+  float inverse_offset;  // 1/m, positive where the face is seen from its observed side
+  float inverse_area;    // 1/m^2, of what one texel stands for
+  float excess;          // m^2
 };
 
 /// The first `count` of some values, the others are not touched; they come as 0.
@@ -136,12 +137,13 @@ class Nodes {
     const V sigma = hn::GatherIndex(d, image_.sigma, nearest_at);
 
     const V mean = load_some(d, means, count), variance = load_some(d, variances, count);
-    const V facing = hn::Div(set(-face_.offset), hn::Sqrt(dot(px, py, pz, px, py, pz)));
-    const V cosine = hn::Max(facing, set(gate_.least_cosine));
-    const V along_normal = hn::Mul(sigma, cosine);
-    const V spread = hn::Sqrt(hn::Add(hn::Add(hn::Mul(along_normal, along_normal), set(gate_.pose_variance)),
-                                      hn::Min(hn::Add(variance, set(face_.excess)), set(gate_.map_variance_most))));
-    const V limit = hn::Mul(set(gate_.sigmas), spread);
+    const V range2 = dot(px, py, pz, px, py, pz);
+    const V cosine2 =
+        hn::Max(hn::Div(set(face_.offset * face_.offset), range2), set(gate_.least_cosine * gate_.least_cosine));
+    const V along_normal2 = hn::Mul(hn::Mul(sigma, sigma), cosine2);
+    const V spread2 = hn::Add(hn::Add(along_normal2, set(gate_.pose_variance)),
+                              hn::Min(hn::Add(variance, set(face_.excess)), set(gate_.map_variance_most)));
+    const V limit2 = hn::Mul(set(gate_.sigmas * gate_.sigmas), spread2);
 
     const V slope =
         hn::Add(hn::Add(hn::Mul(left, set(face_.slope_x)), hn::Mul(top, set(face_.slope_y))), set(face_.slope));
@@ -149,9 +151,9 @@ class Nodes {
     const V left_part = hn::Sub(one, right_part), upper_part = hn::Sub(one, lower_part);
     V sum = zero, total = zero;
     const auto tap = [&](V z, V slope_there, V weight) HWY_ATTR {
-      const V residual = hn::Sub(hn::Mul(z, slope_there), set(face_.offset));
-      const M fits = hn::Le(hn::Abs(hn::Sub(residual, mean)), limit);  // not where nothing was measured
-      sum = hn::Add(sum, hn::IfThenElseZero(fits, hn::Mul(weight, residual)));
+      const V off = hn::Sub(hn::Sub(hn::Mul(z, slope_there), set(face_.offset)), mean);
+      const M fits = hn::Le(hn::Mul(off, off), limit2);  // not where nothing was measured
+      sum = hn::Add(sum, hn::IfThenElseZero(fits, hn::Mul(weight, off)));
       total = hn::Add(total, hn::IfThenElseZero(fits, weight));
     };
     tap(z00, slope, hn::Mul(left_part, upper_part));
@@ -161,16 +163,16 @@ class Nodes {
     seen = hn::And(seen, hn::Ge(total, half));
     if (hn::AllFalse(d, seen)) return;
 
-    const V pixel = hn::Mul(pz, set(image_.inv_fx));
-    const V share = hn::Min(one, hn::Div(hn::Mul(set(face_.texel_area), cosine), hn::Mul(pixel, pixel)));
-    const V across = hn::Mul(set(image_.lateral_px), pixel);
-    const V noise = hn::Div(hn::Add(hn::Mul(along_normal, along_normal),
-                                    hn::Mul(hn::Mul(across, across), hn::Sub(one, hn::Mul(cosine, cosine)))),
-                            share);
-    // The conjugate Gaussian, see fuse().
-    const V gain = hn::Div(variance, hn::Add(variance, noise));
-    store_some(d, seen, hn::Add(mean, hn::Mul(gain, hn::Sub(hn::Div(sum, total), mean))), means);
-    store_some(d, seen, hn::Mul(gain, noise), variances);
+    const V pixel = hn::Mul(pz, set(image_.inv_fx)), across = hn::Mul(set(image_.lateral_px), pixel);
+    const V inverse_cosine = hn::Min(hn::Mul(hn::Sqrt(range2), set(face_.inverse_offset)), set(1 / gate_.least_cosine));
+    const V pixels =
+        hn::Mul(hn::Mul(hn::Mul(pixel, pixel), set(face_.inverse_area)), inverse_cosine);  // a pixel's area, in texels
+    const V noise =
+        hn::Mul(hn::Add(along_normal2, hn::Mul(hn::Mul(across, across), hn::Sub(one, cosine2))), hn::Max(one, pixels));
+    // The conjugate Gaussian, see fuse(), with one division for both mean and variance.
+    const V gain = hn::Div(variance, hn::Mul(total, hn::Add(variance, noise)));
+    store_some(d, seen, hn::Add(mean, hn::Mul(gain, sum)), means);
+    store_some(d, seen, hn::Mul(hn::Mul(gain, total), noise), variances);
   }
 
  private:
@@ -258,8 +260,10 @@ class Setup {
     put(d, slope_x, out, &FaceInView::slope_x);
     put(d, slope_y, out, &FaceInView::slope_y);
     put(d, slope, out, &FaceInView::slope);
-    put(d, dot(nx, ny, nz, a.x, a.y, a.z), out, &FaceInView::offset);
-    put(d, hn::Div(twice_area, hn::Mul(divisions, divisions)), out, &FaceInView::texel_area);
+    const V offset = dot(nx, ny, nz, a.x, a.y, a.z);
+    put(d, offset, out, &FaceInView::offset);
+    put(d, hn::Div(hn::Set(d, -1.0f), offset), out, &FaceInView::inverse_offset);
+    put(d, hn::Div(hn::Mul(divisions, divisions), twice_area), out, &FaceInView::inverse_area);
   }
 
  private:
