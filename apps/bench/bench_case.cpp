@@ -35,17 +35,26 @@ std::string BenchCase::name() const {
 }
 
 BenchPlan full_plan(const Registry& registry, BenchWorlds& worlds, int threads) {
-  BenchPlan plan{
-      registry, worlds, backends_of(registry), {20000, 100000, 500000}, 176, 32, {8, 128}, {88, 352}, {2, 4, 8, 16},
-      {1},      false};
-  for (int n = 2; n <= threads; n *= 2) plan.threads.push_back(n);
-  if (plan.threads.back() != threads) plan.threads.push_back(threads);
+  BenchPlan plan{registry, worlds, backends_of(registry)};
+  plan.triangles = {20000, 100000, 500000};
+  plan.more_particles = {8, 128};
+  plan.more_cols = {88, 352};
+  plan.strides = {2, 4, 8, 16};
+  for (int n = 1; n < threads; n *= 2) plan.threads.push_back(n);
+  plan.threads.push_back(threads);
   return plan;
 }
 
 BenchPlan quick_plan(const Registry& registry, BenchWorlds& worlds, int threads) {
-  BenchPlan plan{registry, worlds, backends_of(registry), {5000}, 44, 4, {}, {}, {4}, {1}, true};
-  if (threads > 1) plan.threads.push_back(threads);
+  BenchPlan plan{registry, worlds, backends_of(registry)};
+  plan.triangles = {5000};
+  plan.cols = 44;
+  plan.particles = 4;
+  plan.many_particles = 20;
+  plan.strides = {4};
+  if (threads > 1) plan.threads.push_back(1);
+  plan.threads.push_back(threads);
+  plan.quick = true;
   return plan;
 }
 

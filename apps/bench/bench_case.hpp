@@ -29,11 +29,12 @@ struct BenchCase {
 struct BenchPlan {
   const Registry& registry;
   BenchWorlds& worlds;
-  std::vector<std::string> backends;  ///< every prediction.* for mesh maps
-  std::vector<int> triangles;
-  int cols = 176;      ///< of the camera
-  int particles = 32;  ///< where their number does not vary
-  std::vector<int> more_particles, more_cols, strides, threads;
+  std::vector<std::string> backends = {};  ///< every prediction.* for mesh maps
+  std::vector<int> triangles = {};
+  int cols = 176;             ///< of the camera
+  int particles = 32;         ///< where their number does not vary
+  int many_particles = 1000;  ///< that share what they can
+  std::vector<int> more_particles = {}, more_cols = {}, strides = {}, threads = {};
   bool quick = false;
 };
 BenchPlan full_plan(const Registry& registry, BenchWorlds& worlds, int threads);

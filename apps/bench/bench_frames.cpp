@@ -19,26 +19,43 @@ constexpr const char* kFlatWeights = "{pixels: 0, temper: 1e-6}";
 enum class Maps {
   own,     ///< each particle's is its own, and the update writes in place
   cloned,  ///< the same, but all that the update writes is cloned, in every frame
+  shared,  ///< all start with one
+};
+/// What the map update does.
+enum class Update {
+  full,    ///< all, in every frame
+  texels,  ///< all in each sixth frame, in the others texels alone
+  sparse,  ///< all in each sixth frame, nothing in the others
 };
 
 struct FrameSetup {
   std::string group, backend;
   int triangles, particles, threads;
   Maps maps;
+  Update update;
 };
+
+std::string name_of(Maps maps) {
+  return maps == Maps::own ? "own" : maps == Maps::cloned ? "cloned" : "shared";
+}
+std::string name_of(Update update) {
+  return update == Update::full ? "full" : update == Update::texels ? "keyframes_and_texels" : "keyframes";
+}
 
 BenchFilter filter_of(const FrameSetup& s) {
   BenchFilter filter;
   filter.particles = s.particles;
   filter.threads = s.threads;
-  filter.own_maps = true;
+  filter.own_maps = s.maps != Maps::shared;
   filter.clones = s.maps == Maps::cloned;
+  filter.jitter = kJitter;
   filter.look = s.backend;
   filter.weigh = "weighting.robust";
-  filter.weigh_params = kFlatWeights;
+  filter.weigh_params = s.maps == Maps::shared ? "{pixels: 0}" : kFlatWeights;
   filter.ess_below = 0.5;
   filter.update = "map_update.ppm_bayes";
-  filter.jitter = kJitter;
+  if (s.update == Update::texels) filter.update_params = "{keyframe_every: 6, between: texels}";
+  if (s.update == Update::sparse) filter.update_params = "{keyframe_every: 6, between: nothing}";
   return filter;
 }
 
@@ -47,7 +64,8 @@ BenchCase frame_case(const BenchPlan& plan, const FrameSetup& s) {
   c.group = s.group;
   c.item = "particle and frame";
   c.settings = {{"backend", s.backend},
-                {"maps", s.maps == Maps::own ? "own" : "cloned"},
+                {"maps", name_of(s.maps)},
+                {"update", name_of(s.update)},
                 {"triangles", std::to_string(s.triangles)},
                 {"particles", std::to_string(s.particles)},
                 {"threads", std::to_string(s.threads)}};
@@ -57,39 +75,49 @@ BenchCase frame_case(const BenchPlan& plan, const FrameSetup& s) {
     const std::vector<std::string> nodes = s.group == "update"
                                                ? std::vector<std::string>{"update"}
                                                : std::vector<std::string>{"look", "weigh", "pick", "update"};
-    double items = 0, cpu_s = 0, faces = 0;
+    BenchTimes times;
+    double cpu_s = 0;
     for (auto _ : state) {
-      const BenchTimes times = run_filter(plan.registry, world, filter, nodes);
+      times = run_filter(plan.registry, world, filter, nodes);
       state.SetIterationTime(times.wall_s);
-      items = static_cast<double>(times.frames) * filter.particles;
       cpu_s += times.cpu_s;
-      faces = times.faces_added;
     }
-    state.counters["items"] = items;
+    state.counters["items"] = static_cast<double>(times.frames) * filter.particles;
     state.counters["cpu_s"] = cpu_s;
-    state.counters["faces_added"] = faces;
+    state.counters["faces_added"] = times.faces_added;
+    if (s.maps == Maps::shared) state.counters["ancestors"] = times.ancestors;
   };
   return c;
+}
+
+void add_cases_of(const BenchPlan& plan, int triangles, std::vector<BenchCase>& cases) {
+  const int particles = triangles > kLarge ? plan.particles / 4 : plan.particles;
+  const int most_threads = plan.threads.back();
+  const auto add = [&](const std::string& group, const std::string& backend, int threads, Maps maps, Update update) {
+    cases.push_back(frame_case(plan, {group, backend, triangles, particles, threads, maps, update}));
+  };
+  for (Maps maps : {Maps::own, Maps::cloned})
+    for (Update update : {Update::full, Update::texels}) add("update", kFastest, 1, maps, update);
+  for (const auto& backend : plan.backends) {
+    if (triangles > kLarge && backend != kFastest) continue;
+    for (int threads : plan.threads) add("frame", backend, threads, Maps::cloned, Update::texels);
+  }
+  add("frame", kFastest, most_threads, Maps::own, Update::texels);
+  add("frame", kFastest, most_threads, Maps::cloned, Update::full);
 }
 
 }  // namespace
 
 void add_frame_cases(const BenchPlan& plan, std::vector<BenchCase>& cases) {
+  for (int triangles : plan.triangles) add_cases_of(plan, triangles, cases);
   const int most_threads = plan.threads.back();
-  for (int triangles : plan.triangles) {
-    const bool large = triangles > kLarge;
-    const int particles = large ? plan.particles / 4 : plan.particles;
-    for (Maps maps : {Maps::own, Maps::cloned})
-      cases.push_back(frame_case(plan, {"update", kFastest, triangles, particles, 1, maps}));
-    for (const auto& backend : plan.backends) {
-      if (large && backend != kFastest) continue;
-      for (int threads : plan.threads)
-        cases.push_back(frame_case(plan, {"frame", backend, triangles, particles, threads, Maps::cloned}));
-    }
-    cases.push_back(frame_case(plan, {"frame", kFastest, triangles, particles, most_threads, Maps::own}));
-  }
   for (int n : plan.more_particles)
-    cases.push_back(frame_case(plan, {"frame", kFastest, plan.triangles.front(), n, most_threads, Maps::cloned}));
+    cases.push_back(
+        frame_case(plan, {"frame", kFastest, plan.triangles.front(), n, most_threads, Maps::cloned, Update::texels}));
+  for (const auto& backend : plan.backends)
+    if (backend == kFastest || backend == "prediction.shared_view")
+      cases.push_back(frame_case(plan, {"frame", backend, plan.triangles.front(), plan.many_particles, most_threads,
+                                        Maps::shared, Update::sparse}));
 }
 
 }  // namespace ppm

@@ -76,7 +76,8 @@ std::vector<KernelShare> kernel_shares(const BenchPlan& plan, const std::vector<
   const double view = ms_of(results, "view/prediction.raster/" + size);
   const double weigh = ms_of(results, "weigh/prediction.raster/weighting.robust/" + size);
   const double update =
-      ms_of(results, fmt::format("update/prediction.raster/cloned/{}/particles:{}/threads:1", size, plan.particles));
+      ms_of(results, fmt::format("update/prediction.raster/cloned/keyframes_and_texels/{}/particles:{}/threads:1", size,
+                                 plan.particles));
   if (std::isnan(view) && std::isnan(update)) return {};
   const SceneCounts n = count(plan.worlds.of(triangles, plan.cols));
   std::vector<KernelShare> shares{
