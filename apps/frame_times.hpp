@@ -2,12 +2,14 @@
 #include <cstdint>
 #include <string>
 
+#include "framework/core/process_cost.hpp"
 #include "framework/core/timing.hpp"
 
 namespace ppm {
 
-/// What each frame of a run cost, as lines of CSV: frame, wall time since the frame before (ms), memory of the process
-/// (MB resident). The first line is from construction on.
+/// What each frame of a run cost, as lines of CSV: frame; wall time since the frame before, and time of all its threads
+/// on processors (ms); memory of the process: resident, and of that in use (MB). The first line is from construction
+/// on.
 class FrameTimes {
  public:
   /// frame: that has ended, from 0.
@@ -16,7 +18,8 @@ class FrameTimes {
 
  private:
   Stopwatch watch_;
-  std::string csv_ = "frame,wall_ms,resident_mb\n";
+  double cpu_s_ = process_cpu_s();
+  std::string csv_ = "frame,wall_ms,cpu_ms,resident_mb,heap_mb\n";
 };
 
 }  // namespace ppm

@@ -1,9 +1,9 @@
 #include "apps/bench/bench_filter.hpp"
 
 #include <atomic>
-#include <ctime>
 
 #include "apps/bench/bench_modules.hpp"
+#include "framework/core/process_cost.hpp"
 #include "framework/graph/executor.hpp"
 
 namespace ppm {
@@ -31,12 +31,6 @@ std::string graph_of(const BenchFilter& f) {
   text += node("update", f.update, f.update_params);
   if (f.clones) text += node("keep", "sink.bench", "{}", false);
   return text;
-}
-
-double cpu_now() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 double faces_of(const ParticleSet& belief) {
@@ -70,13 +64,13 @@ BenchTimes run_filter(const Registry& registry, BenchWorld& world, const BenchFi
   executor.on_frame = [&](std::int64_t done, std::int64_t) {
     if (done != 1 + turn) return;
     faces = faces_of(executor.belief());
-    cpu_s = cpu_now();
+    cpu_s = process_cpu_s();
   };
   const std::atomic<bool> stop{false};
   const RunSummary summary = executor.run(1 + kTurns * turn, stop);
 
   BenchTimes times;
-  times.cpu_s = cpu_now() - cpu_s;
+  times.cpu_s = process_cpu_s() - cpu_s;
   times.frames = static_cast<int>((kTurns - 1) * turn);
   const double updates = static_cast<double>(times.frames) * filter.particles;
   times.faces_added = (faces_of(executor.belief()) - faces) / updates;

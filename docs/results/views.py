@@ -71,11 +71,14 @@ def targets():
     for weighting in ("gaussian", "robust"):
         row(f"weigh one particle, full image, 20k / 100k triangles, one thread, `weighting.{weighting}`", "0.21 / 0.51 ms", (0.20, 0.45),
             [find("weigh", backend="prediction.raster", weighting="weighting." + weighting, triangles=n) for n in (20000, 100000)])
-    for maps, text in (("cloned", "all that the update writes is cloned"), ("own", "written in place")):
-        row(f"whole frame a particle, 20k / 100k, {threads} threads, own maps, {text}", "0.25 / 0.65 ms", (0.20, 0.50),
-            [find("frame", backend="prediction.raster", maps=maps, triangles=n, particles=32, threads=threads)
+    for maps, update, text in (("cloned", "keyframes_and_texels", "texels in every frame, new surface in each sixth; chunks cloned"),
+                               ("own", "keyframes_and_texels", "the same, written in place"),
+                               ("cloned", "full", "the whole update in every frame, chunks cloned")):
+        row(f"whole frame a particle, 20k / 100k, {threads} threads, own maps; {text}", "0.25 / 0.65 ms", (0.20, 0.50),
+            [find("frame", backend="prediction.raster", maps=maps, update=update, triangles=n, particles=32, threads=threads)
              for n in (20000, 100000)])
-    keyframed = find("frame_keyframed", backend="prediction.shared_view", triangles=20000, particles=1000, threads=threads)
+    keyframed = find("frame", backend="prediction.shared_view", maps="shared", update="keyframes", triangles=20000, particles=1000,
+                     threads=threads)
     if keyframed:
         at_10_hz = 100 / keyframed["ms_best"]
         print(f"| particles at 10 Hz with `shared_view` and a keyframed update, 20k | - | >= 1,000 | "
@@ -173,18 +176,21 @@ def filter_tables():
         print(f"| `{b}` | " + " | ".join(cells) + " |")
     print("\n## Whole frames\n")
     print("View, likelihood of all pixels, resampling and map update: ms a particle and frame. Every particle's map is its own, shape and "
-          "texels; `cloned`: the maps of the frame before are kept, so that every chunk that is written is cloned first; `own`: nothing is.\n")
+          "texels; `cloned`: the maps of the frame before are kept, so that every chunk that is written is cloned first; `own`: nothing is; "
+          "`shared`: all particles start with one map, and are resampled by the weights of the pixels. The update is `full` in every frame, or in "
+          "each sixth (`keyframes`), with or without the texels of what is seen in between (`keyframe_every: 6`, `between`).\n")
     rows = [c for c in cases if c["group"] == "frame"]
-    print("| back-end | maps | triangles | particles | threads | ms |")
-    print("|---|---|---|---|---|---|")
+    print("| back-end | maps | update | triangles | particles | threads | ms |")
+    print("|---|---|---|---|---|---|---|")
     for c in rows:
         s = c["settings"]
-        print(f"| `{s['backend']}` | {s['maps']} | {LABEL.get(s['triangles'], s['triangles'])} | {s['particles']} | {s['threads']} | {ms(c)} |")
+        print(f"| `{s['backend']}` | {s['maps']} | {s['update'].replace('_', ' ')} | {LABEL.get(s['triangles'], s['triangles'])} | {s['particles']} | {s['threads']} | {ms(c)} |")
     print("\nThe map update alone, one thread:\n")
-    print("| maps | triangles | ms a particle and frame |")
-    print("|---|---|---|")
+    print("| maps | update | triangles | ms a particle and frame |")
+    print("|---|---|---|---|")
     for c in (c for c in cases if c["group"] == "update"):
-        print(f"| {c['settings']['maps']} | {LABEL[c['settings']['triangles']]} | {ms(c)} |")
+        s = c["settings"]
+        print(f"| {s['maps']} | {s['update'].replace('_', ' ')} | {LABEL[s['triangles']]} | {ms(c)} |")
     print("\n![Whole frames by particles and threads](../images/views_frames.png)\n")
     plot_frames(rows)
     print("Others: " + "; ".join(f"`{c['name']}` {1e3 * c['ms_best']:.3g} us a {c['item']}" for c in cases if c["group"] in ("gather", "simplify"))
@@ -193,7 +199,8 @@ def filter_tables():
 
 def plot_frames(rows):
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), constrained_layout=True)
-    raster = [c for c in rows if c["settings"]["backend"] == "prediction.raster" and c["settings"]["maps"] == "cloned"]
+    raster = [c for c in rows if c["settings"]["backend"] == "prediction.raster" and c["settings"]["maps"] == "cloned"
+              and c["settings"]["update"] == "keyframes_and_texels"]
     by_particles = sorted((int(c["settings"]["particles"]), c["ms_best"]) for c in raster
                           if c["settings"]["triangles"] == "20000" and c["settings"]["threads"] == str(threads))
     axes[0].plot(*zip(*by_particles), "o-", label=f"20k triangles, {threads} threads")

@@ -93,6 +93,27 @@ TEST_CASE("option --frames ends early, --quiet is quiet, and only frames up to t
   CHECK(json["holdout"]["frames"] == 1);
 }
 
+TEST_CASE("option --times keeps time and memory by frame") {
+  SmallRoom room;
+  const auto run = room.run({"--frames", "3", "--times"});
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  const auto times = lines(content(room.out / "times.csv"));
+  REQUIRE(times.size() == 4);
+  CHECK(times[0] == "frame,wall_ms,cpu_ms,resident_mb,heap_mb");
+  for (int i = 1; i <= 3; ++i) {
+    int frame = -1;
+    double wall = 0, cpu = 0, resident = 0, heap = 0;
+    const int found = std::sscanf(times[static_cast<std::size_t>(i)].c_str(), "%d,%lf,%lf,%lf,%lf", &frame, &wall, &cpu,
+                                  &resident, &heap);
+    CHECK(found == 5);
+    CHECK(frame == i - 1);
+    CHECK(wall > 0);
+    CHECK(resident > 1);
+  }
+  CHECK(read_json(room.out / "run.json")["files"].dump().find("times.csv") != std::string::npos);
+}
+
 TEST_CASE("one frame is a run too: nothing to compare a path with") {
   SmallRoom room;
   const auto run = room.run({"--frames", "1"});
