@@ -6,21 +6,25 @@
 namespace ppm {
 namespace {
 
-bool looks_at_meshes(const ModuleInfo& info) {
-  if (!info.name.starts_with("prediction.")) return false;
-  const auto module = info.make();
-  return std::ranges::any_of(module->ports(), [](const PortBase* port) {
-    if (port->direction() != PortDirection::belief) return false;
-    const auto& needs = static_cast<const BeliefPortBase*>(port)->facets().needs;
-    return std::ranges::find(needs, "map.ppm") != needs.end();
-  });
+/// The prediction.* that name a facet among what they need, or give.
+std::vector<std::string> predictors(const Registry& registry, std::vector<std::string> Facets::*words,
+                                    const std::string& facet) {
+  std::vector<std::string> names;
+  for (const ModuleInfo* info : registry.all()) {
+    if (!info->name.starts_with("prediction.")) continue;
+    const auto module = info->make();
+    for (const PortBase* port : module->ports()) {
+      if (port->direction() != PortDirection::belief) continue;
+      const auto& named = static_cast<const BeliefPortBase*>(port)->facets().*words;
+      if (std::ranges::find(named, facet) != named.end()) names.push_back(info->name);
+    }
+  }
+  return names;
 }
 
-std::vector<std::string> backends_of(const Registry& registry) {
-  std::vector<std::string> names;
-  for (const ModuleInfo* info : registry.all())
-    if (looks_at_meshes(*info)) names.push_back(info->name);
-  return names;
+BenchPlan plan_of(const Registry& registry, BenchWorlds& worlds) {
+  return {registry, worlds, predictors(registry, &Facets::needs, "map.ppm"),
+          predictors(registry, &Facets::gives, "prediction.elements")};
 }
 
 }  // namespace
@@ -35,7 +39,7 @@ std::string BenchCase::name() const {
 }
 
 BenchPlan full_plan(const Registry& registry, BenchWorlds& worlds, int threads) {
-  BenchPlan plan{registry, worlds, backends_of(registry)};
+  BenchPlan plan = plan_of(registry, worlds);
   plan.triangles = {20000, 100000, 500000};
   plan.more_particles = {8, 128};
   plan.more_cols = {88, 352};
@@ -46,7 +50,7 @@ BenchPlan full_plan(const Registry& registry, BenchWorlds& worlds, int threads) 
 }
 
 BenchPlan quick_plan(const Registry& registry, BenchWorlds& worlds, int threads) {
-  BenchPlan plan{registry, worlds, backends_of(registry)};
+  BenchPlan plan = plan_of(registry, worlds);
   plan.triangles = {5000};
   plan.cols = 44;
   plan.particles = 4;

@@ -30,6 +30,7 @@ struct BenchPlan {
   const Registry& registry;
   BenchWorlds& worlds;
   std::vector<std::string> backends = {};  ///< every prediction.* for mesh maps
+  std::vector<std::string> exact = {};     ///< those whose views a map update can use
   std::vector<int> triangles = {};
   int cols = 176;             ///< of the camera
   int particles = 32;         ///< where their number does not vary

@@ -15,7 +15,9 @@ struct BenchFilter {
   std::string look, look_params = "{}";
   std::string weigh, weigh_params = "{}";
   double ess_below = 0;  ///< of resampling
+  std::string view;      ///< an exact view for the update, where the look is none
   std::string update, update_params = "{}";
+  int update_every = 1;  ///< frames; the view too
   int threads = 1;
   /// Noise of the views' poses about the images'.
   std::string jitter = "{sigma_t: 2 cm, sigma_r: 1 deg}";
@@ -31,7 +33,7 @@ struct BenchTimes {
 };
 
 /// Runs the filter through the executor for some turns of the world's cycle of images, the first for warming up. nodes:
-/// which of "look", "weigh", "pick", "update" are timed. Throws what the modules throw.
+/// which of "look", "weigh", "pick", "view" and "update" are timed. Throws what the modules throw.
 BenchTimes run_filter(const Registry& registry, BenchWorld& world, const BenchFilter& filter,
                       const std::vector<std::string>& nodes);
 

@@ -177,8 +177,9 @@ def filter_tables():
     print("\n## Whole frames\n")
     print("View, likelihood of all pixels, resampling and map update: ms a particle and frame. Every particle's map is its own, shape and "
           "texels; `cloned`: the maps of the frame before are kept, so that every chunk that is written is cloned first; `own`: nothing is; "
-          "`shared`: all particles start with one map, and are resampled by the weights of the pixels. The update is `full` in every frame, or in "
-          "each sixth (`keyframes`), with or without the texels of what is seen in between (`keyframe_every: 6`, `between`).\n")
+          "`shared`: all particles start with one map, and are resampled by weights as peaked as the default's. The update is `full` in every "
+          "frame; `keyframes and texels`: in each sixth, in between the texels of what is seen (`keyframe_every: 6`); `keyframes`: view and update "
+          "in each sixth frame alone (`when: {every: 6}`), by `prediction.raster`.\n")
     rows = [c for c in cases if c["group"] == "frame"]
     print("| back-end | maps | update | triangles | particles | threads | ms |")
     print("|---|---|---|---|---|---|---|")

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <set>
 
 #include "framework/slam/frame.hpp"
 #include "tests/prediction/gl_device.hpp"
@@ -11,13 +10,17 @@
 namespace ppm::test {
 namespace {
 
-bool looks_at_meshes(const ModuleInfo& info) {
+bool has(const std::vector<std::string>& facets, const std::string& facet) {
+  return std::find(facets.begin(), facets.end(), facet) != facets.end();
+}
+
+bool looks_exactly_at_meshes(const ModuleInfo& info) {
   if (!info.name.starts_with("prediction.")) return false;
   const auto module = info.make();
   for (const PortBase* port : module->ports()) {
     if (port->direction() != PortDirection::belief) continue;
-    const auto& needs = static_cast<const BeliefPortBase*>(port)->facets().needs;
-    if (std::find(needs.begin(), needs.end(), "map.ppm") != needs.end()) return true;
+    const auto& facets = static_cast<const BeliefPortBase*>(port)->facets();
+    if (has(facets.needs, "map.ppm") && has(facets.gives, "prediction.elements")) return true;
   }
   return false;
 }
@@ -31,11 +34,9 @@ bool runs_here(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> exact_backends() {
-  static const std::set<std::string> approximate{"prediction.shared_view"};
   std::vector<std::string> names;
   for (const ModuleInfo* info : builtin().all())
-    if (looks_at_meshes(*info) && !approximate.contains(info->name) && runs_here(info->name))
-      names.push_back(info->name);
+    if (looks_exactly_at_meshes(*info) && runs_here(info->name)) names.push_back(info->name);
   return names;
 }
 

@@ -9,8 +9,8 @@
 
 namespace ppm::test {
 
-/// The modules that answer exactly what a mesh map shows: every prediction.* that needs a "map.ppm", but for those
-/// that say of themselves that they approximate. A back-end that this machine cannot run is left out, visibly.
+/// The modules that answer exactly what a mesh map shows: every prediction.* that needs a "map.ppm" and gives
+/// "prediction.elements". A back-end that this machine cannot run is left out, visibly.
 std::vector<std::string> exact_backends();
 
 /// What to look at.
