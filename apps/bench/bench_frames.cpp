@@ -14,8 +14,6 @@ constexpr const char* kFastest = "prediction.raster";  // where one back-end mus
 constexpr int kLarge = 200000;  // triangles: from there on fewer particles, so that their maps fit into memory
 // Flat enough that most particles live: the cost of a frame is that of distinct particles.
 constexpr const char* kFlatWeights = "{pixels: 0, temper: 1e-6}";
-// As peaked for all pixels as the default is for 1,200.
-constexpr const char* kWeights = "{pixels: 0, temper: 0.0015}";
 
 /// How the particles' maps are held.
 enum class Maps {
@@ -35,6 +33,7 @@ struct FrameSetup {
   int triangles, particles, threads;
   Maps maps;
   Update update;
+  int pixels = 0;  // compared, where particles share maps: 0 = all
 };
 
 std::string name_of(Maps maps) {
@@ -53,7 +52,7 @@ BenchFilter filter_of(const FrameSetup& s) {
   filter.jitter = kJitter;
   filter.look = s.backend;
   filter.weigh = "weighting.robust";
-  filter.weigh_params = s.maps == Maps::shared ? kWeights : kFlatWeights;
+  filter.weigh_params = s.maps == Maps::shared ? fmt::format("{{pixels: {}}}", s.pixels) : kFlatWeights;
   filter.ess_below = 0.5;
   filter.update = "map_update.ppm_bayes";
   if (s.update == Update::texels) filter.update_params = "{keyframe_every: 6, between: texels}";
@@ -71,6 +70,7 @@ BenchCase frame_case(const BenchPlan& plan, const FrameSetup& s) {
                 {"triangles", std::to_string(s.triangles)},
                 {"particles", std::to_string(s.particles)},
                 {"threads", std::to_string(s.threads)}};
+  if (s.maps == Maps::shared) c.settings.emplace_back("pixels", std::to_string(s.pixels));
   c.run = [&plan, s](benchmark::State& state) {
     BenchWorld& world = plan.worlds.of(s.triangles, plan.cols);
     const BenchFilter filter = filter_of(s);
@@ -116,10 +116,10 @@ void add_frame_cases(const BenchPlan& plan, std::vector<BenchCase>& cases) {
   for (int n : plan.more_particles)
     cases.push_back(
         frame_case(plan, {"frame", kFastest, plan.triangles.front(), n, most_threads, Maps::cloned, Update::texels}));
-  for (const auto& backend : plan.backends)
-    if (backend == kFastest || backend == "prediction.shared_view")
+  for (const std::string backend : {kFastest, "prediction.shared_view"})
+    for (int pixels : {0, 1200})
       cases.push_back(frame_case(plan, {"frame", backend, plan.triangles.front(), plan.many_particles, most_threads,
-                                        Maps::shared, Update::sparse}));
+                                        Maps::shared, Update::sparse, pixels}));
 }
 
 }  // namespace ppm
