@@ -17,7 +17,7 @@ namespace ppm {
 struct GlViewOptions {
   GlDevice device = GlDevice::any;
   bool cull_back_faces = true;
-  int views_per_draw = 10;  ///< 1 .. GlRasterizer::kMostViews
+  int views_per_draw = 4;  ///< 1 .. GlRasterizer::kMostViews
 };
 
 /// Views of mesh maps by OpenGL. Views that were announced are drawn in batches: the first worker that needs one of a
