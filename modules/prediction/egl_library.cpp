@@ -32,7 +32,8 @@ EglLibrary open_library() {
       !egl.MakeCurrent || !egl.QueryString || !egl.GetPlatformDisplay)
     throw Error("this EGL cannot do without a display: it lacks eglGetPlatformDisplayEXT");
   const char* client = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  const bool lists = has_extension(client, "EGL_EXT_device_base") || has_extension(client, "EGL_EXT_device_enumeration");
+  const bool lists =
+      has_extension(client, "EGL_EXT_device_base") || has_extension(client, "EGL_EXT_device_enumeration");
   if (lists && has_extension(client, "EGL_EXT_platform_device")) {
     load(egl, "eglQueryDevicesEXT", egl.QueryDevices);
     load(egl, "eglQueryDeviceStringEXT", egl.QueryDeviceString);

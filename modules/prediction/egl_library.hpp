@@ -1,7 +1,6 @@
 #pragma once
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-
 #include <string>
 #include <vector>
 

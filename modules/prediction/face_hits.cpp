@@ -16,7 +16,8 @@ double at_pixel(const Vector3d& row, double x, double y) {
 
 }  // namespace
 
-SeenFace::SeenFace(const Geometry& geometry, std::uint32_t face, const Vector3d& centre, const Eigen::Matrix3d& ray_of) {
+SeenFace::SeenFace(const Geometry& geometry, std::uint32_t face, const Vector3d& centre,
+                   const Eigen::Matrix3d& ray_of) {
   const auto& corner = geometry.face[face];
   const Vector3d p0 = geometry.position[corner[0]].cast<double>();
   e1_ = geometry.position[corner[1]].cast<double>() - p0;
@@ -60,8 +61,12 @@ void SeenFace::pass_beside(const Vector3d& direction, double& u, double& v, doub
 }
 
 HitFinder::HitFinder(const PpmMap& map, const FaceNumbers& faces, const Prediction& view)
-    : map_(map), faces_(faces), camera_(view.camera), centre_(view.T_map_camera.translation()),
-      per_fx_(1 / camera_.fx), per_fy_(1 / camera_.fy) {
+    : map_(map),
+      faces_(faces),
+      camera_(view.camera),
+      centre_(view.T_map_camera.translation()),
+      per_fx_(1 / camera_.fx),
+      per_fy_(1 / camera_.fy) {
   const Eigen::Matrix3d R = view.T_map_camera.linear();
   ray_of_.col(0) = R.col(0) / camera_.fx;
   ray_of_.col(1) = R.col(1) / camera_.fy;

@@ -6,15 +6,15 @@
 
 namespace ppm {
 
-/// A face as rays from one point meet it, after Möller and Trumbore 1997: barycentrics and depth at a pixel are ratios of
-/// values that grow linearly over the image. In double precision, which needles and grazing faces need.
+/// A face as rays from one point meet it, after Möller and Trumbore 1997: barycentrics and depth at a pixel are ratios
+/// of values that grow linearly over the image. In double precision, which needles and grazing faces need.
 class SeenFace {
  public:
   SeenFace() = default;
   /// centre: the camera's, map frame; ray_of: pixel (x, y) looks along ray_of * (x, y, 1), map frame.
   SeenFace(const Geometry& geometry, std::uint32_t face, const Eigen::Vector3d& centre, const Eigen::Matrix3d& ray_of);
-  /// Where the ray of a pixel meets the face; the nearest point of its border where the ray passes beside it. ray_of: as
-  /// before; length: of ray_of * (x, y, 1).
+  /// Where the ray of a pixel meets the face; the nearest point of its border where the ray passes beside it. ray_of:
+  /// as before; length: of ray_of * (x, y, 1).
   void meet(int x, int y, const Eigen::Matrix3d& ray_of, double length, ElementHits& hits, std::size_t at) const;
 
  private:
@@ -24,8 +24,8 @@ class SeenFace {
   Vector3d e1_ = Vector3d::Zero(), e2_ = e1_;       // m, edges from the first corner
   Vector3d from_ = e1_;                             // m, from the first corner to the camera's centre
   Vector3d det_ = e1_, u_det_ = e1_, v_det_ = e1_;  // by (x, y, 1)
-  double height_ = 0;    // m, of the centre over the face's plane, times twice the area
-  double per_area_ = 0;  // 1/m^2, of twice the area
+  double height_ = 0;                               // m, of the centre over the face's plane, times twice the area
+  double per_area_ = 0;                             // 1/m^2, of twice the area
 };
 
 /// Finds where rays meet the faces that a rasterizer says they see. A rasterizer takes corners to a grid a little finer

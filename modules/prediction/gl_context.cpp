@@ -19,8 +19,9 @@ EGLContext make_context(const EglLibrary& egl, const EglDisplayChoice& choice, s
       reason = fmt::format("lacks {}", needed);
       return EGL_NO_CONTEXT;
     }
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  const EGLint attributes[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   egl.BindAPI(EGL_OPENGL_API);
   EGLContext context = egl.CreateContext(choice.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   if (context == EGL_NO_CONTEXT) reason = fmt::format("has no OpenGL 4.5 (EGL error {:#x})", egl.GetError());
@@ -74,9 +75,9 @@ GlContext::GlContext(GlDevice wanted) : gl_(std::make_unique<GlFunctions>()) {
     reasons += fmt::format("; {} {}", choice.name, reason);
   }
   const char* kind = wanted == GlDevice::hardware ? "hardware " : wanted == GlDevice::software ? "software " : "";
-  throw Error(fmt::format("no {}device for OpenGL without a display{}", kind,
-                          reasons.empty() ? ": EGL knows none (is Mesa's libgl1-mesa-dri or the GPU's driver installed?)"
-                                          : reasons));
+  throw Error(fmt::format(
+      "no {}device for OpenGL without a display{}", kind,
+      reasons.empty() ? ": EGL knows none (is Mesa's libgl1-mesa-dri or the GPU's driver installed?)" : reasons));
 }
 
 GlContext::~GlContext() {

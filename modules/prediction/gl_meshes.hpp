@@ -26,7 +26,7 @@ class GlMeshes {
   const GlMesh& of(const Geometry& geometry) const;
 
   unsigned positions() const { return position_.buffer(); }  ///< 3 floats a vertex, m, map frame
-  unsigned indices() const { return index_.buffer(); }       ///< 3 unsigned integers a face, from the mesh's first vertex
+  unsigned indices() const { return index_.buffer(); }  ///< 3 unsigned integers a face, from the mesh's first vertex
   std::size_t size() const { return entries_.size(); }
   std::size_t added() const { return added_; }  ///< by the last update()
   std::int64_t bytes() const { return position_.bytes() + index_.bytes(); }

@@ -68,7 +68,7 @@ void fill(const GlFunctions& gl, GLuint buffer, const std::vector<T>& data) {
 }  // namespace
 
 GlRasterizer::GlRasterizer(const GlContext& context, bool cull_back_faces)
-    : context_(context), cull_back_faces_(cull_back_faces), target_(context.gl()) {
+    : context_(context), target_(context.gl()) {
   const GlFunctions& gl = context_.gl();
   program_ = make_gl_program(gl, kVertexShader, kFragmentShader);
   gl.CreateBuffers(1, &views_);
@@ -88,7 +88,7 @@ GlRasterizer::GlRasterizer(const GlContext& context, bool cull_back_faces)
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
   gl.CullFace(GL_BACK);
-  if (cull_back_faces_) gl.Enable(GL_CULL_FACE);
+  if (cull_back_faces) gl.Enable(GL_CULL_FACE);
   context_.check();
 }
 
@@ -130,7 +130,8 @@ void GlRasterizer::send_views(const Camera& camera, std::span<const GlView> view
   std::vector<ViewBlock> blocks;
   blocks.reserve(views.size());
   for (const GlView& view : views) blocks.push_back(block_of(camera, view.T_map_camera));
-  context_.gl().NamedBufferSubData(views_, 0, static_cast<GLsizeiptr>(blocks.size() * sizeof(ViewBlock)), blocks.data());
+  context_.gl().NamedBufferSubData(views_, 0, static_cast<GLsizeiptr>(blocks.size() * sizeof(ViewBlock)),
+                                   blocks.data());
 }
 
 void GlRasterizer::draw(const Camera& camera, std::span<const GlView> views, const GlMeshes& meshes,

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,14 +21,15 @@ struct GlView {
 };
 
 /// Draws the faces that views see, several views together: each chunk's triangles are drawn once for all views of a
-/// batch whose image they may meet, as instances, each into the layer of its view. Where two faces are equally near, the
-/// one of the lower number is seen. What lies less than kNear in front of the camera is not seen.
+/// batch whose image they may meet, as instances, each into the layer of its view. Where two faces are equally near,
+/// the one of the lower number is seen. What lies less than kNear in front of the camera is not seen.
 /// Every call, the destructor too, needs the context to be current.
-/// Source: paper, section 5; reversed depth after Reed, "Depth precision visualized", 2015.
+///
+/// source   paper, section 5; depth reversed in floats after Reed, "Depth Precision Visualized", 2015
 class GlRasterizer {
  public:
-  static constexpr int kMostViews = 256;   ///< in one draw: what uniform blocks hold everywhere
-  static constexpr double kNear = 1e-3;  ///< m, along the optical axis
+  static constexpr int kMostViews = 256;  ///< in one draw: what uniform blocks hold everywhere
+  static constexpr double kNear = 1e-3;   ///< m, along the optical axis
 
   /// cull_back_faces: faces seen from behind are not there. Throws Error where the driver refuses.
   GlRasterizer(const GlContext& context, bool cull_back_faces);
@@ -57,7 +59,6 @@ class GlRasterizer {
   void send_views(const Camera& camera, std::span<const GlView> views);
 
   const GlContext& context_;
-  bool cull_back_faces_;
   GlTarget target_;
   unsigned program_ = 0, vertex_array_ = 0;
   unsigned views_ = 0, instances_ = 0, commands_ = 0;  // buffers

@@ -13,7 +13,8 @@ class GlTarget {
   GlTarget& operator=(const GlTarget&) = delete;
   ~GlTarget();
 
-  /// Makes at least so many layers of that size; does nothing where they are there. Throws Error where the device cannot.
+  /// Makes at least so many layers of that size; does nothing where they are there. Throws Error where the device
+  /// cannot.
   void resize(int cols, int rows, int layers);
   /// Empties the first layers and makes them what is drawn into.
   void start(int layers);

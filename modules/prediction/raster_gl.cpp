@@ -18,7 +18,8 @@ const PpmMap& as_ppm(const Map& map) {
 /// processor where its ray meets that face, and the texels there.
 ///
 /// prediction  range to the base face (not to the described surface), texel mean and variance at the hit, the face's
-///             normal; colour where the map has it; a face seen from its unobserved side is no hit unless `backfaces` says so
+///             normal; colour where the map has it; a face seen from its unobserved side is no hit unless `backfaces`
+///             says so
 ///
 /// metrics     chunks (on the device), added (to it in this frame), device_mb
 ///

@@ -25,7 +25,8 @@ class Environment {
 std::unique_ptr<Process> draw_room(const TempFolder& folder, const std::string& threads = "1") {
   std::string graph = kSmallRoom;
   const std::string embree = "prediction.embree, in: {frame: camera.frame}}";
-  const std::string look = "prediction.raster_gl, in: {frame: camera.frame}, when: {from_frame: 1}, params: {stride: 2}}";
+  const std::string look =
+      "prediction.raster_gl, in: {frame: camera.frame}, when: {from_frame: 1}, params: {stride: 2}}";
   graph.replace(graph.find(embree), embree.size(), look);
   graph.insert(graph.find("  - {name: update"),
                "  - {name: view, module: prediction.raster_gl, in: {frame: camera.frame}}\n");

@@ -21,7 +21,9 @@ const Camera kCamera{176, 144, 150, 150, 87.5, 71.5};
 std::shared_ptr<const PpmMap> room(int faces) {
   static std::map<int, std::shared_ptr<const PpmMap>> made;
   auto& map = made[faces];
-  if (!map) map = map_of(meshed_room(faces), {}, [](const Eigen::Vector3f&) { return 0.f; }, 1e-4f);
+  if (!map)
+    map = map_of(
+        meshed_room(faces), {}, [](const Eigen::Vector3f&) { return 0.f; }, 1e-4f);
   return map;
 }
 
@@ -50,7 +52,9 @@ std::vector<GlView> views_of(const PpmMap& map, int n) {
   return views;
 }
 
-void report(benchmark::State& state, int views) { state.counters["views"] = views; }
+void report(benchmark::State& state, int views) {
+  state.counters["views"] = views;
+}
 
 // Draws and reads back `range(1)` views, range(2) a draw.
 void draw(benchmark::State& state) {
@@ -61,8 +65,7 @@ void draw(benchmark::State& state) {
   const auto views = views_of(*map, n);
   for (auto _ : state) {
     gl.expect(kCamera, views);
-    for (const auto& view : views)
-      benchmark::DoNotOptimize(gl.faces(*map, kCamera, view.T_map_camera).number.data());
+    for (const auto& view : views) benchmark::DoNotOptimize(gl.faces(*map, kCamera, view.T_map_camera).number.data());
   }
   report(state, n);
 }

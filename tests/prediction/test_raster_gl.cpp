@@ -131,8 +131,8 @@ TEST_CASE("prediction.raster_gl gives the same bytes for any number of threads a
   const std::string alone = bytes_of(views("prediction.raster_gl", "{views_per_draw: 1}", maps, 11));
   for (int threads : {1, 2, 4})
     for (const char* together : {"2", "4", "256"})
-      CHECK(bytes_of(views("prediction.raster_gl", fmt::format("{{views_per_draw: {}}}", together), maps, 11, threads)) ==
-            alone);
+      CHECK(bytes_of(views("prediction.raster_gl", fmt::format("{{views_per_draw: {}}}", together), maps, 11,
+                           threads)) == alone);
 }
 
 TEST_CASE("of two faces at the same place the lower one is seen") {
