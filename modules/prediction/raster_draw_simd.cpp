@@ -178,9 +178,10 @@ class Band {
                                 hn::And(hn::Ge(at(t.edge[2], x, y), zero), hn::Gt(depth, zero)));
       const MF covered = hn::And(inside, on);
       const VI pixel = hn::NearestInt(hn::Add(hn::Add(hn::Mul(y, cols), x), origin));
-      hn::CompressStore(depth, covered, df, list_depth_ + listed);
-      hn::CompressStore(pixel, hn::RebindMask(di, covered), di, list_pixel_ + listed);
-      listed += hn::CompressStore(triangle, hn::RebindMask(du, covered), du, list_triangle_ + listed);
+      hn::StoreU(hn::Compress(depth, covered), df, list_depth_ + listed);
+      hn::StoreU(hn::Compress(pixel, hn::RebindMask(di, covered)), di, list_pixel_ + listed);
+      hn::StoreU(hn::Compress(triangle, hn::RebindMask(du, covered)), du, list_triangle_ + listed);
+      listed += hn::CountTrue(df, covered);
       x = hn::Add(x, one);
       const MF next_row = hn::Gt(x, box.x1);
       x = hn::IfThenElse(next_row, box.x0, x);

@@ -44,7 +44,7 @@ void raster_draw(const RasterCamera& camera, const std::uint32_t* face, const fl
 
 /// Consecutive pixels of a list that show the same triangle, and what is known of it: arrays by run.
 struct RasterRuns {
-  static constexpr std::size_t kMost = 256;  ///< runs, and pixels
+  static constexpr std::size_t kMost = 512;  ///< runs, and pixels
   static constexpr std::size_t kRoom = kMost + RasterBand::kSpare;
   std::size_t size = 0;
   alignas(64) std::uint32_t triangle[kRoom];

@@ -49,7 +49,8 @@ void split(const std::uint32_t* shown, RasterRuns& runs, RasterPixels& pixels) {
     const auto starts = hn::Ne(triangle, before);  // no lane past the end: those repeat the last pixel
     run = hn::Add(run, count_up_to(hn::RebindMask(di, starts)));
     hn::Store(run, di, pixels.run + p);
-    runs.size += hn::CompressStore(triangle, starts, du, runs.triangle + runs.size);
+    hn::StoreU(hn::Compress(triangle, starts), du, runs.triangle + runs.size);
+    runs.size += hn::CountTrue(du, starts);
     run = hn::TableLookupLanes(run, hn::IndicesFromVec(di, last_lane));
   }
 }

@@ -204,9 +204,11 @@ void select(const RasterCamera& camera, const std::uint32_t* face, std::size_t f
     const auto columns = hn::BitCast(du, hn::Or(x0, hn::ShiftLeft<16>(x1)));
     const auto rows = hn::BitCast(du, hn::Or(y0, hn::ShiftLeft<16>(y1)));
     const auto chosen_u = hn::RebindMask(du, chosen);
-    hn::CompressStore(number, chosen_u, du, boxes.face.data() + boxes.size);
-    hn::CompressStore(columns, chosen_u, du, boxes.columns.data() + boxes.size);
-    boxes.size += hn::CompressStore(rows, chosen_u, du, boxes.rows.data() + boxes.size);
+    // Compressed in registers: storing compressed is slow on some processors.
+    hn::StoreU(hn::Compress(number, chosen_u), du, boxes.face.data() + boxes.size);
+    hn::StoreU(hn::Compress(columns, chosen_u), du, boxes.columns.data() + boxes.size);
+    hn::StoreU(hn::Compress(rows, chosen_u), du, boxes.rows.data() + boxes.size);
+    boxes.size += hn::CountTrue(du, chosen_u);
     if (!hn::AllFalse(di, far)) add_far_faces(camera, face, f, bits_of(far), vertex, boxes);
   }
 }
