@@ -1,7 +1,9 @@
 // What a view of a mesh map costs, by drawing and by ray casting, in one run: docs/views.md.
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <map>
 #include <numeric>
+#include <span>
 
 #include "modules/maps/ppm/meshed_room.hpp"
 #include "modules/prediction/embree_scenes.hpp"
@@ -13,7 +15,6 @@ using namespace ppm;
 namespace {
 
 const Camera kCamera{176, 144, 150, 150, 87.5, 71.5};
-const int kPoses = std::getenv("POSES") ? std::atoi(std::getenv("POSES")) : 20;
 
 std::shared_ptr<const PpmMap> room(int faces) {
   static std::map<int, std::shared_ptr<const PpmMap>> made;
@@ -64,7 +65,7 @@ void view(benchmark::State& state, Ask ask) {
   std::vector<std::uint32_t> pixels;
   int i = 0;
   for (auto _ : state) {
-    out.reset_deferred(kCamera, static_cast<int>(state.range(1)), room_view(0.3 * (i++ % kPoses)));
+    out.reset_deferred(kCamera, static_cast<int>(state.range(1)), room_view(0.3 * (i++ % 20)));
     back_end.draw(out);
     if (ask == Ask::samples) {
       pixels.resize(static_cast<std::size_t>(out.camera.pixels()));

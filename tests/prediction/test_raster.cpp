@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <hwy/highway.h>
 
 #include "framework/core/digest.hpp"
