@@ -10,7 +10,7 @@ namespace ppm {
 struct RasterScratch {
   struct Chunk {
     std::uint32_t number;
-    float distance;  ///< m, from the camera's centre to the chunk's box
+    float distance;  ///< m^2, squared, from the camera's centre to the chunk's box
   };
   std::vector<Chunk> chunks;
   AlignedArray<float> vertex;         ///< see raster_project
