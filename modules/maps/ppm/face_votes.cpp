@@ -116,8 +116,15 @@ std::vector<FaceRef> cast_votes(const std::vector<FaceTally>& tallies, const Vot
 void mark_pixels(const UpdateView& view, const std::vector<FaceRef>& faces, std::vector<std::uint8_t>& marked) {
   const Prediction& seen = *view.prediction;
   marked.assign(view.depth.size(), 0);
-  for (std::size_t p = 0; p < marked.size(); ++p)
-    marked[p] = seen.hit(p) && std::binary_search(faces.begin(), faces.end(), FaceRef{seen.chunk[p], seen.face[p]});
+  FaceRef last{Prediction::kNone, Prediction::kNone};  // of the pixel before: often this one's too
+  bool is_marked = false;
+  for (std::size_t p = 0; p < marked.size(); ++p) {
+    if (!seen.hit(p)) continue;
+    const FaceRef face{seen.chunk[p], seen.face[p]};
+    if (face != last) is_marked = std::binary_search(faces.begin(), faces.end(), face);
+    last = face;
+    marked[p] = is_marked;
+  }
 }
 
 }  // namespace ppm

@@ -87,6 +87,45 @@ bool is_due(int every, std::int64_t frame) {
   return every > 0 && frame % every == 0;
 }
 
+/// Classifies pixels and lets them vote: faces that lost leave the map, and their pixels are misses at once. Sets
+/// scratch.classes, removed and kept. Returns the excess that new faces start with, m^2.
+float vote(const UpdateSettings& settings, const Workers& workers, UpdateScratch& scratch, PpmEdit& edit) {
+  const UpdateView& view = scratch.view;
+  classify_pixels(view, settings.gate, settings.classify_sigmas, {}, workers, scratch.classes);
+  const auto& tallies = scratch.tallies.count(edit.map(), view, scratch.classes, settings.votes);
+  const float excess = learn_excess(tallies, settings.excess, edit);
+  scratch.removed = cast_votes(tallies, settings.votes, edit);
+  const auto& removed = scratch.removed;
+  scratch.kept.clear();
+  for (const auto& t : tallies)
+    if (!std::binary_search(removed.begin(), removed.end(), t.face)) scratch.kept.push_back(t.face);
+  if (removed.empty()) return excess;
+  for (const auto& f : removed) edit.remove_face(f.chunk, f.face);
+  mark_pixels(view, removed, scratch.gone);
+  classify_pixels(view, settings.gate, settings.classify_sigmas, scratch.gone, workers, scratch.classes);
+  return excess;
+}
+
+/// New surface, notches and holes: sets scratch.faces, over vertices of scratch.boundary.
+UpdateCounts propose_faces(const UpdateSettings& settings, std::int64_t frame_number, UpdateScratch& scratch) {
+  const UpdateView& view = scratch.view;
+  auto& faces = scratch.faces;
+  faces.clear();
+  NewSurfaceSettings surface = settings.surface;
+  if (is_due(settings.grazing_every, frame_number)) surface.triangle.cosine_least = settings.grazing_cosine;
+  NotchSettings notches = settings.notches;
+  notches.triangle = surface.triangle;
+  UpdateCounts counts;
+  counts.removed_faces = scratch.removed.size();
+  counts.wanted_pixels = find_wanted(is_due(settings.thin_every, frame_number) ? 0 : settings.open_radius, scratch);
+  if (counts.wanted_pixels > 0) make_surface(view, scratch.classes, scratch.wanted, surface, scratch.boundary, faces);
+  counts.new_faces = faces.size();
+  fill_notches(view, scratch.classes, notches, scratch.boundary, faces);
+  fill_holes(view, settings.holes, scratch.boundary, faces);
+  counts.filled_faces = faces.size() - counts.new_faces;
+  return counts;
+}
+
 }  // namespace
 
 void UpdateSettings::share() {
@@ -97,43 +136,20 @@ std::shared_ptr<const PpmMap> update_map(std::shared_ptr<const PpmMap> map, cons
                                          const Prediction& prediction, const UpdateSettings& settings,
                                          std::int64_t frame_number, const Workers& workers, UpdateScratch& scratch,
                                          UpdateCounts* counts) {
-  UpdateView& view = scratch.view;
-  view.build(frame, prediction, workers);
-  auto& classes = scratch.classes;
-  classify_pixels(view, settings.gate, settings.classify_sigmas, {}, workers, classes);
-
+  const UpdateView& view = scratch.view;
+  const auto& classes = scratch.classes;
+  scratch.view.build(frame, prediction, workers);
   PpmEdit edit(std::move(map));
-  const auto& tallies = scratch.tallies.count(edit.map(), view, classes, settings.votes);
-  const float excess = learn_excess(tallies, settings.excess, edit);
-  const std::vector<FaceRef> removed = cast_votes(tallies, settings.votes, edit);
-  scratch.kept.clear();
-  for (const auto& t : tallies)
-    if (!std::binary_search(removed.begin(), removed.end(), t.face)) scratch.kept.push_back(t.face);
-  if (!removed.empty()) {
-    for (const auto& f : removed) edit.remove_face(f.chunk, f.face);
-    mark_pixels(view, removed, scratch.gone);
-    classify_pixels(view, settings.gate, settings.classify_sigmas, scratch.gone, workers, classes);
-  }
+  const float excess = vote(settings, workers, scratch, edit);
   const ColorView colors(frame, view, classes, edit.map().settings().color_channels, settings.color);
   update_texels(view, classes, scratch.kept, settings.texels, workers, edit);
   update_color(view, colors, classes, scratch.kept, settings.texels, workers, edit);
 
-  Boundary& boundary = scratch.boundary;
-  boundary.build(edit.map(), view, removed);
-  auto& faces = scratch.faces;
-  faces.clear();
-  const auto wanted = find_wanted(is_due(settings.thin_every, frame_number) ? 0 : settings.open_radius, scratch);
-  NewSurfaceSettings surface = settings.surface;
-  if (is_due(settings.grazing_every, frame_number)) surface.triangle.cosine_least = settings.grazing_cosine;
-  NotchSettings notches = settings.notches;
-  notches.triangle = surface.triangle;
-  if (wanted > 0) make_surface(view, classes, scratch.wanted, surface, boundary, faces);
-  const auto made = faces.size();
-  fill_notches(view, classes, notches, boundary, faces);
-  fill_holes(view, settings.holes, boundary, faces);
-  FaceWriter writer(view, colors, settings.texels, excess, boundary, edit);
-  for (const auto& f : faces) writer.write(f);
-  if (counts) *counts = {wanted, made, faces.size() - made, removed.size()};
+  scratch.boundary.build(edit.map(), view, scratch.removed);
+  const UpdateCounts made = propose_faces(settings, frame_number, scratch);
+  FaceWriter writer(view, colors, settings.texels, excess, scratch.boundary, edit);
+  for (const auto& f : scratch.faces) writer.write(f);
+  if (counts) *counts = made;
   return edit.commit();
 }
 

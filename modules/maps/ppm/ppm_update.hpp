@@ -41,7 +41,7 @@ struct UpdateScratch {
   UpdateView view;
   std::vector<std::uint8_t> classes, gone, wanted, unknown;  // [px]
   FaceTallies tallies;
-  std::vector<FaceRef> kept;
+  std::vector<FaceRef> kept, removed;  // of the faces in view; ascending
   Boundary boundary;
   std::vector<RimFace> faces;
 };

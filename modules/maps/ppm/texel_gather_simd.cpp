@@ -93,6 +93,15 @@ HWY_INLINE void store_some(D d, hn::Mask<D> set, hn::Vec<D> from, float* values)
 #endif
 }
 
+/// The four measured pixels around each texel's image, one texel a lane.
+template <class D>
+struct Window {
+  hn::Vec<D> left, top;               // column and row of the first
+  hn::Vec<D> right_part, lower_part;  // 0 .. 1, how far the image lies towards the others
+  hn::Vec<D> z00, z10, z01, z11;      // m, depths: first row, second row; NaN = no return
+  hn::Vec<D> nearest, sigma;          // m, of the nearest of them
+};
+
 /// What the texels of a face read and compute, one a lane.
 template <class D>
 class Nodes {
@@ -106,83 +115,101 @@ class Nodes {
 
   /// Updates texels at (i, j), of which the first `count` are there.
   HWY_INLINE void update(V i, V j, std::size_t count, float* means, float* variances) {
-    const D d;
-    const V one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-    const V px = along(0, i, j), py = along(1, i, j), pz = along(2, i, j);
-    const V w = hn::Div(one, pz);
-    V x = hn::Add(hn::Mul(hn::Mul(set(image_.fx), px), w), set(image_.cx));
-    V y = hn::Add(hn::Mul(hn::Mul(set(image_.fy), py), w), set(image_.cy));
-    M seen = hn::And(hn::FirstN(d, count), hn::Gt(pz, zero));
-    seen = hn::And(seen, hn::And(hn::Ge(x, zero), hn::Le(x, set(static_cast<float>(image_.cols - 1)))));
-    seen = hn::And(seen, hn::And(hn::Ge(y, zero), hn::Le(y, set(static_cast<float>(image_.rows - 1)))));
-    if (hn::AllFalse(d, seen)) return;
-    x = hn::IfThenElseZero(seen, x);
-    y = hn::IfThenElseZero(seen, y);
+    const Vec3<D> p{along(0, i, j), along(1, i, j), along(2, i, j)};
+    const V w = hn::Div(set(1), p.z);
+    V x = hn::Add(hn::Mul(hn::Mul(set(image_.fx), p.x), w), set(image_.cx));
+    V y = hn::Add(hn::Mul(hn::Mul(set(image_.fy), p.y), w), set(image_.cy));
+    M seen = hn::And(hn::And(hn::FirstN(D(), count), hn::Gt(p.z, set(0))),
+                     hn::And(within(x, image_.cols), within(y, image_.rows)));
+    if (hn::AllFalse(D(), seen)) return;
+    const Window<D> window = read(hn::IfThenElseZero(seen, x), hn::IfThenElseZero(seen, y));
+    seen = hn::And(seen, hn::Eq(window.nearest, window.nearest));
+    if (hn::AllFalse(D(), seen)) return;
 
-    const DI di;
-    const auto x0 = hn::Min(hn::ConvertTo(di, x), hn::Set(di, image_.cols - 2));
-    const auto y0 = hn::Min(hn::ConvertTo(di, y), hn::Set(di, image_.rows - 2));
-    const auto at = hn::Add(hn::Mul(y0, hn::Set(di, image_.row_step)), hn::Mul(x0, hn::Set(di, image_.col_step)));
-    const V left = hn::ConvertTo(d, x0), top = hn::ConvertTo(d, y0);
-    const V right_part = hn::Sub(x, left), lower_part = hn::Sub(y, top);
-    const V z00 = depth(at, 0, 0), z10 = depth(at, 1, 0), z01 = depth(at, 0, 1), z11 = depth(at, 1, 1);
-    const V half = set(0.5f);
-    const M to_right = hn::Ge(right_part, half), below = hn::Ge(lower_part, half);
-    const V nearest = hn::IfThenElse(below, hn::IfThenElse(to_right, z11, z01), hn::IfThenElse(to_right, z10, z00));
-    seen = hn::And(seen, hn::Eq(nearest, nearest));
-    if (hn::AllFalse(d, seen)) return;
-    const auto nearest_at =
-        hn::Add(at, hn::Add(hn::IfThenElseZero(hn::RebindMask(di, to_right), hn::Set(di, image_.col_step)),
-                            hn::IfThenElseZero(hn::RebindMask(di, below), hn::Set(di, image_.row_step))));
-    const V sigma = hn::GatherIndex(d, image_.sigma, nearest_at);
-
-    const V mean = load_some(d, means, count), variance = load_some(d, variances, count);
-    const V range2 = dot(px, py, pz, px, py, pz);
+    const V mean = load_some(D(), means, count), variance = load_some(D(), variances, count);
+    const V range2 = dot(p.x, p.y, p.z, p.x, p.y, p.z);
     const V cosine2 =
         hn::Max(hn::Div(set(face_.offset * face_.offset), range2), set(gate_.least_cosine * gate_.least_cosine));
-    const V along_normal2 = hn::Mul(hn::Mul(sigma, sigma), cosine2);
-    const V spread2 = hn::Add(hn::Add(along_normal2, set(gate_.pose_variance)),
-                              hn::Min(hn::Add(variance, set(face_.excess)), set(gate_.map_variance_most)));
-    const V limit2 = hn::Mul(set(gate_.sigmas * gate_.sigmas), spread2);
+    const V sensor = hn::Mul(hn::Mul(window.sigma, window.sigma), cosine2);
+    const V map = hn::Min(hn::Add(variance, set(face_.excess)), set(gate_.map_variance_most));
+    V sum, total;  // of weighted distances from the mean; of the weights
+    compare(window, mean,
+            hn::Mul(set(gate_.sigmas * gate_.sigmas), hn::Add(hn::Add(sensor, set(gate_.pose_variance)), map)), sum,
+            total);
+    seen = hn::And(seen, hn::Ge(total, set(0.5f)));
+    if (hn::AllFalse(D(), seen)) return;
 
-    const V slope =
-        hn::Add(hn::Add(hn::Mul(left, set(face_.slope_x)), hn::Mul(top, set(face_.slope_y))), set(face_.slope));
-    const V slope_right = hn::Add(slope, set(face_.slope_x));
-    const V left_part = hn::Sub(one, right_part), upper_part = hn::Sub(one, lower_part);
-    V sum = zero, total = zero;
-    const auto tap = [&](V z, V slope_there, V weight) HWY_ATTR {
-      const V off = hn::Sub(hn::Sub(hn::Mul(z, slope_there), set(face_.offset)), mean);
-      const M fits = hn::Le(hn::Mul(off, off), limit2);  // not where nothing was measured
-      sum = hn::Add(sum, hn::IfThenElseZero(fits, hn::Mul(weight, off)));
-      total = hn::Add(total, hn::IfThenElseZero(fits, weight));
-    };
-    tap(z00, slope, hn::Mul(left_part, upper_part));
-    tap(z10, slope_right, hn::Mul(right_part, upper_part));
-    tap(z01, hn::Add(slope, set(face_.slope_y)), hn::Mul(left_part, lower_part));
-    tap(z11, hn::Add(slope_right, set(face_.slope_y)), hn::Mul(right_part, lower_part));
-    seen = hn::And(seen, hn::Ge(total, half));
-    if (hn::AllFalse(d, seen)) return;
-
-    const V pixel = hn::Mul(pz, set(image_.inv_fx)), across = hn::Mul(set(image_.lateral_px), pixel);
-    const V inverse_cosine = hn::Min(hn::Mul(hn::Sqrt(range2), set(face_.inverse_offset)), set(1 / gate_.least_cosine));
-    const V pixels =
-        hn::Mul(hn::Mul(hn::Mul(pixel, pixel), set(face_.inverse_area)), inverse_cosine);  // a pixel's area, in texels
-    const V noise =
-        hn::Mul(hn::Add(along_normal2, hn::Mul(hn::Mul(across, across), hn::Sub(one, cosine2))), hn::Max(one, pixels));
+    const V noise = measured_variance(sensor, p.z, range2, cosine2);
     // The conjugate Gaussian, see fuse(), with one division for both mean and variance.
     const V gain = hn::Div(variance, hn::Mul(total, hn::Add(variance, noise)));
-    store_some(d, seen, hn::Add(mean, hn::Mul(gain, sum)), means);
-    store_some(d, seen, hn::Mul(hn::Mul(gain, total), noise), variances);
+    store_some(D(), seen, hn::Add(mean, hn::Mul(gain, sum)), means);
+    store_some(D(), seen, hn::Mul(hn::Mul(gain, total), noise), variances);
   }
 
  private:
   static HWY_INLINE V set(float value) { return hn::Set(D(), value); }
+  static HWY_INLINE M within(V at, int pixels) {
+    return hn::And(hn::Ge(at, set(0)), hn::Le(at, set(static_cast<float>(pixels - 1))));
+  }
+  /// A coordinate of the texels, m.
   HWY_INLINE V along(std::size_t axis, V i, V j) const {
     return hn::Add(set(face_.corner[axis]),
                    hn::Add(hn::Mul(i, set(face_.step_i[axis])), hn::Mul(j, set(face_.step_j[axis]))));
   }
-  HWY_INLINE V depth(hn::Vec<DI> at, int right, int down) const {
-    return hn::GatherIndex(D(), image_.depth + right * image_.col_step + down * image_.row_step, at);
+
+  /// x, y: inside the image.
+  HWY_INLINE Window<D> read(V x, V y) const {
+    const D d;
+    const DI di;
+    const auto x0 = hn::Min(hn::ConvertTo(di, x), hn::Set(di, image_.cols - 2));
+    const auto y0 = hn::Min(hn::ConvertTo(di, y), hn::Set(di, image_.rows - 2));
+    const auto right = hn::Set(di, image_.col_step), down = hn::Set(di, image_.row_step);
+    const auto at = hn::Add(hn::Mul(y0, down), hn::Mul(x0, right));
+    Window<D> window;
+    window.left = hn::ConvertTo(d, x0);
+    window.top = hn::ConvertTo(d, y0);
+    window.right_part = hn::Sub(x, window.left);
+    window.lower_part = hn::Sub(y, window.top);
+    window.z00 = hn::GatherIndex(d, image_.depth, at);
+    window.z10 = hn::GatherIndex(d, image_.depth + image_.col_step, at);
+    window.z01 = hn::GatherIndex(d, image_.depth + image_.row_step, at);
+    window.z11 = hn::GatherIndex(d, image_.depth + image_.row_step + image_.col_step, at);
+    const M is_right = hn::Ge(window.right_part, set(0.5f)), is_below = hn::Ge(window.lower_part, set(0.5f));
+    window.nearest = hn::IfThenElse(is_below, hn::IfThenElse(is_right, window.z11, window.z01),
+                                    hn::IfThenElse(is_right, window.z10, window.z00));
+    const auto to_nearest = hn::Add(hn::IfThenElseZero(hn::RebindMask(di, is_right), right),
+                                    hn::IfThenElseZero(hn::RebindMask(di, is_below), down));
+    window.sigma = hn::GatherIndex(d, image_.sigma, hn::Add(at, to_nearest));
+    return window;
+  }
+
+  /// How far the measured points lie from the texels' means, of those within the gate; limit2: m^2, its square.
+  HWY_INLINE void compare(const Window<D>& window, V mean, V limit2, V& sum, V& total) const {
+    sum = total = set(0);
+    const auto take = [&](V z, V slope, V weight) HWY_ATTR {
+      const V off = hn::Sub(hn::Sub(hn::Mul(z, slope), set(face_.offset)), mean);
+      const M fits = hn::Le(hn::Mul(off, off), limit2);  // not where nothing was measured
+      sum = hn::Add(sum, hn::IfThenElseZero(fits, hn::Mul(weight, off)));
+      total = hn::Add(total, hn::IfThenElseZero(fits, weight));
+    };
+    const V slope_x = set(face_.slope_x), slope_y = set(face_.slope_y);
+    const V slope = hn::Add(hn::Add(hn::Mul(window.left, slope_x), hn::Mul(window.top, slope_y)), set(face_.slope));
+    const V slope_right = hn::Add(slope, slope_x);
+    const V left_part = hn::Sub(set(1), window.right_part), upper_part = hn::Sub(set(1), window.lower_part);
+    take(window.z00, slope, hn::Mul(left_part, upper_part));
+    take(window.z10, slope_right, hn::Mul(window.right_part, upper_part));
+    take(window.z01, hn::Add(slope, slope_y), hn::Mul(left_part, window.lower_part));
+    take(window.z11, hn::Add(slope_right, slope_y), hn::Mul(window.right_part, window.lower_part));
+  }
+
+  /// Variance of a measurement along the normal, more where texels share a pixel, m^2. sensor: what the depth's noise
+  /// adds.
+  HWY_INLINE V measured_variance(V sensor, V depth, V range2, V cosine2) const {
+    const V pixel = hn::Mul(depth, set(image_.inv_fx)), across = hn::Mul(set(image_.lateral_px), pixel);
+    const V inverse_cosine = hn::Min(hn::Mul(hn::Sqrt(range2), set(face_.inverse_offset)), set(1 / gate_.least_cosine));
+    const V texels = hn::Mul(hn::Mul(hn::Mul(pixel, pixel), set(face_.inverse_area)), inverse_cosine);
+    return hn::Mul(hn::Add(sensor, hn::Mul(hn::Mul(across, across), hn::Sub(set(1), cosine2))),
+                   hn::Max(set(1), texels));
   }
 
   const GatherImage& image_;
