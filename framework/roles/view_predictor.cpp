@@ -8,7 +8,13 @@
 namespace ppm {
 namespace {
 
-constexpr int kBandRows = 16;  // a part of a view for one worker
+// Rows of the parts that views are cut into: as few parts as keep the workers busy, since each starts anew in the map.
+int rows_of_band(int rows, std::size_t views, int threads) {
+  constexpr int kLeast = 16;
+  const auto wanted = threads > 1 ? 4 * static_cast<std::size_t>(threads) : 1;
+  const auto parts = static_cast<int>((wanted + views - 1) / views);
+  return std::max((rows + parts - 1) / parts, kLeast);
+}
 
 std::vector<std::string> what_is_given(ViewPredictor::Views views) {
   std::vector<std::string> facets{"prediction"};
@@ -80,11 +86,12 @@ std::vector<std::shared_ptr<Prediction>> ViewPredictor::predict_in_bands(const C
   workers.for_each(views.size(), [&](std::size_t k, int) { made[k] = blank_view(camera, stride, views[k]); });
   if (views.empty()) return made;
   const int rows = made.front()->camera.rows;
-  const auto bands = static_cast<std::size_t>((rows + kBandRows - 1) / kBandRows);
+  const int band = rows_of_band(rows, views.size(), workers.threads());
+  const auto bands = static_cast<std::size_t>((rows + band - 1) / band);
   workers.for_each(bands * views.size(), [&](std::size_t i, int worker) {
     const std::size_t k = i / bands;
-    const int first = static_cast<int>(i % bands) * kBandRows;
-    predict(*views[k].map, {first, std::min(first + kBandRows, rows)}, *made[k], worker);
+    const int first = static_cast<int>(i % bands) * band;
+    predict(*views[k].map, {first, std::min(first + band, rows)}, *made[k], worker);
   });
   return made;
 }

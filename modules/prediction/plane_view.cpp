@@ -4,9 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "framework/core/error.hpp"
+
 namespace ppm {
 
 void PlaneView::start(const PpmMap& map, PredictionHandle view) {
+  PPM_CHECK(view->camera.pixels() < 1 << 24, "a shared view of {} pixels", view->camera.pixels());
   map_ = &map;
   view_ = std::move(view);
   whole_.reset();
@@ -27,32 +30,46 @@ void PlaneView::fill(const Rows& rows) {
   view_->elements(rows, chunk, face);
 
   const Eigen::Matrix3f to_camera = view_->T_map_camera.linear().transpose().cast<float>();
-  Eigen::Vector3f normal;  // of the last face, camera frame: often the next pixel's too
+  Normals normals(pixels.size());
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // of the last face, camera frame: often the next pixel's too
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::size_t p = first + i;
-    disparity_[p] = per_x_[p] = per_y_[p] = distance_[p] = variance_[p] = 0;
-    if (chunk[i] == Prediction::kNone) continue;
-    if (i == 0 || chunk[i] != chunk[i - 1] || face[i] != face[i - 1])
+    if (chunk[i] != Prediction::kNone && (i == 0 || chunk[i] != chunk[i - 1] || face[i] != face[i - 1]))
       normal = to_camera * map_->table()[chunk[i]].geometry->face_normal(face[i]);
-    const Eigen::Vector3f ray =
-        camera.ray(static_cast<double>(p % cols), static_cast<double>(p / cols)).cast<float>();
-    set_plane(p, ray, normal, seen.range[i]);
-    variance_[p] = seen.variance[i] * seen.cosine[i] * seen.cosine[i];
+    normals.x[i] = normal.x(), normals.y[i] = normal.y(), normals.z[i] = normal.z();
   }
-  for (int y = rows.first; y < rows.end; ++y) close_gaps(y);
+  for (int y = rows.first; y < rows.end; ++y) {
+    fill_row(y, static_cast<std::size_t>(y - rows.first) * cols, seen, normals);
+    close_gaps(y);
+  }
 }
 
-void PlaneView::set_plane(std::size_t p, const Eigen::Vector3f& ray, const Eigen::Vector3f& normal, float range) {
+// Without branches, so that it is vectorised. from: the row's first entry in `seen` and `normals`.
+void PlaneView::fill_row(int y, std::size_t from, const ViewSamples& seen, const Normals& normals) {
   constexpr float kLeastCosine = 1e-3f;  // flatter elements are taken for that flat
   constexpr float kLeastRange = 1e-3f;   // m: texels may say that the surface is behind the camera
-  const float length = ray.norm(), z = std::max(range, kLeastRange) / length;
-  float along = normal.dot(ray);
-  if (std::abs(along) < kLeastCosine * length) along = std::copysign(kLeastCosine * length, along);
-  const auto fx = static_cast<float>(view_->camera.fx), fy = static_cast<float>(view_->camera.fy);
-  disparity_[p] = 1 / z;
-  per_x_[p] = normal.x() / (fx * z * along);
-  per_y_[p] = normal.y() / (fy * z * along);
-  distance_[p] = z * std::abs(along);
+  const Camera& camera = view_->camera;
+  const auto per_fx = static_cast<float>(1 / camera.fx), per_fy = static_cast<float>(1 / camera.fy);
+  const float ray_x0 = -static_cast<float>(camera.cx) * per_fx;
+  const float ray_y = static_cast<float>(y - camera.cy) * per_fy;
+  const float *nx = &normals.x[from], *ny = &normals.y[from], *nz = &normals.z[from];
+  const float *range = &seen.range[from], *cosine = &seen.cosine[from], *variance = &seen.variance[from];
+  const std::size_t first = static_cast<std::size_t>(y * camera.cols);
+  float *disparity = &disparity_[first], *per_x = &per_x_[first], *per_y = &per_y_[first],
+        *distance = &distance_[first], *along_normal = &variance_[first];
+#pragma GCC ivdep  // the rows of the arrays are apart
+  for (int x = 0; x < camera.cols; ++x) {
+    const float ray_x = static_cast<float>(x) * per_fx + ray_x0;
+    const float per_length = 1 / std::sqrt(ray_x * ray_x + ray_y * ray_y + 1);
+    const float facing = (nx[x] * ray_x + ny[x] * ray_y + nz[x]) * per_length;
+    const float safe = std::copysign(std::max(std::abs(facing), kLeastCosine), facing);
+    const float offset = std::max(range[x], kLeastRange) * safe;  // n . p; infinite at a miss
+    const float per_offset = 1 / offset;                          // 0 at a miss
+    disparity[x] = safe * per_offset / per_length;
+    per_x[x] = nx[x] * per_fx * per_offset;
+    per_y[x] = ny[x] * per_fy * per_offset;
+    distance[x] = range[x] == Prediction::kMiss ? 0 : std::abs(offset);
+    along_normal[x] = variance[x] * cosine[x] * cosine[x];
+  }
 }
 
 // Gaps move with the surface around them: a run of misses in a row takes the smaller disparity of its two ends.

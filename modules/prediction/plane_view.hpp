@@ -23,7 +23,11 @@ class PlaneView {
   const Prediction& whole() const;
 
  private:
-  void set_plane(std::size_t p, const Eigen::Vector3f& ray, const Eigen::Vector3f& normal, float range);
+  struct Normals {
+    explicit Normals(std::size_t n) : x(n), y(n), z(n) {}
+    std::vector<float> x, y, z;  // of the pixels' elements, camera frame
+  };
+  void fill_row(int y, std::size_t from, const ViewSamples& seen, const Normals& normals);
   void close_gaps(int y);
 
   const PpmMap* map_ = nullptr;

@@ -139,19 +139,20 @@ class SharedViewPredictor final : public ViewPredictor {
             detail_ * (camera.cx + x + 0.5) - 0.5, detail_ * (camera.cy + y + 0.5) - 0.5};
   }
 
-  /// m: all but a hundredth of what the frame measures is farther away.
+  /// m: all but a hundredth of what the frame measures, by some of its pixels, is farther away.
   double nearest_depth() const {
+    constexpr std::size_t kLooks = 4096;
     std::vector<float> depth;
-    for (float z : frame->depth)
-      if (z > 0) depth.push_back(z);
+    for (std::size_t p = 0; p < frame->depth.size(); p += 1 + frame->depth.size() / kLooks)
+      if (frame->depth[p] > 0) depth.push_back(frame->depth[p]);
     if (depth.empty()) return 1;
     const auto nearest = depth.begin() + static_cast<std::ptrdiff_t>(depth.size() / 100);
     std::nth_element(depth.begin(), nearest, depth.end());
     return static_cast<double>(*nearest);
   }
 
-  GroupLimits limits_{0.05, 2 * EIGEN_PI / 180, 4};
-  int group_least_ = 4;
+  GroupLimits limits_{0.05, 2 * EIGEN_PI / 180};
+  int group_least_ = 6;
   double detail_ = 1;
   RasterOptions options_;
   mutable Pool<RasterView> views_;

@@ -58,6 +58,7 @@ TEST_CASE("the kitchen's graphs run a few frames") {
   runs_as_it_did({"kitchen_mapping_paper.yaml", {"--set", path}, 1e-6, 0.88, 12});
   runs_as_it_did({"kitchen_slam.yaml", {"--set", path, "--set", "init.particles=20"}, 0.03, 0.9, 25});
   runs_as_it_did({"kitchen_slam_color.yaml", {"--set", path, "--set", "init.particles=20"}, 0.03, 0.9, 25});
+  runs_as_it_did({"kitchen_slam_shared.yaml", {"--set", path, "--set", "init.particles=50"}, 0.03, 0.7, 25});
   runs_as_it_did({"kitchen_slam_paper.yaml", {"--set", path, "--set", "init.particles=20"}, 0.1, 0.7, 100});
 }
 
