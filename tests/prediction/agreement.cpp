@@ -81,7 +81,7 @@ class Judge {
     const Triangle first = triangle_of(map_, exact.chunk, exact.face);
     const auto own = plane_crossing(t.p0, t.e1, t.e2, origin_, d),
                other = plane_crossing(first.p0, first.e1, first.e2, origin_, d);
-    return own && own->inside(1e-9) && own->cosine < 0 &&
+    return own && own->inside(1e-9) && !(tree_.culls_back_faces() && own->cosine > 0) &&
            own->range - exact.range <= tolerance(own->range, own->cosine) + tolerance(exact.range, other->cosine);
   }
 
@@ -114,7 +114,7 @@ class Judge {
       const Triangle t = triangle_of(map_, view_.chunk[p], view_.face[p]);
       const auto own = plane_crossing(t.p0, t.e1, t.e2, origin_, d);
       const double px = to_outline(p, view_.chunk[p], view_.face[p], inside);
-      if (!own || (own->cosine > 1e-6) || (!inside && px > kEdge)) return false;
+      if (!own || (tree_.culls_back_faces() && own->cosine > 1e-6) || (!inside && px > kEdge)) return false;
       range = own->range - tolerance(own->range, own->cosine);
     }
     for (const auto& hit : tree_.all(origin_, d)) {
@@ -143,13 +143,14 @@ class Judge {
     const auto at = plane_crossing(t.p0, t.e1, t.e2, origin_, d);
     if (!at) return raise(tally_.range, INFINITY);
     const double sides = t.e1.norm() + t.e2.norm(), corner = kCornerShare * (1 + at->range + sides);
-    raise(tally_.normal, (normal - n).norm() / (1e-6 + corner * sides / cross.norm()));
+    const double side = at->cosine > 0 ? -1 : 1;  // turned where the face is seen from behind
+    raise(tally_.normal, (normal - side * n).norm() / (1e-6 + corner * sides / cross.norm()));
     const double allowed = tolerance(at->range, at->cosine) + corner * sides * sides / cross.norm();
     const double taken_back = beyond_edge(*at);
     raise(tally_.range, std::abs(view_.range[p] - at->range) / (allowed + taken_back));
     const double off = ((u - at->u) * t.e1 + (v - at->v) * t.e2).norm();
     raise(tally_.point, off / (allowed + taken_back));
-    check_texture(p);
+    check_texture(p, static_cast<float>(side));
   }
 
   /// How far on the face a pixel that shows it from beyond its edge may be taken back, m.
@@ -158,11 +159,11 @@ class Judge {
     return kEdge * at.range / (std::min(view_.camera.fx, std::abs(view_.camera.fy)) * std::abs(at.cosine));
   }
 
-  void check_texture(std::size_t p) {
+  void check_texture(std::size_t p, float side) {
     const PpmChunk& chunk = map_.table()[view_.chunk[p]];
     const float u = view_.bary[2 * p], v = view_.bary[2 * p + 1];
     const TexelSample texel = linear_sample(*chunk.geometry, *chunk.texels, view_.face[p], u, v);
-    raise(tally_.mean, std::abs(view_.mean[p] - texel.mean) / (1e-7 + kAttribute * std::abs(texel.mean)));
+    raise(tally_.mean, std::abs(view_.mean[p] - side * texel.mean) / (1e-7 + kAttribute * std::abs(texel.mean)));
     raise(tally_.variance, std::abs(view_.variance[p] - texel.variance) / (kAttribute * texel.variance));
     const auto channels = static_cast<std::size_t>(view_.color_channels);
     if (channels == 0) return;
@@ -204,7 +205,8 @@ void Tally::add(const Tally& other) {
 }
 
 double Tally::doubtful() const {
-  return pixels > 0 ? 1 - static_cast<double>(of(Verdict::same) + of(Verdict::fault)) / static_cast<double>(pixels) : 0;
+  return static_cast<double>(of(Verdict::tie) + of(Verdict::edge) + of(Verdict::sliver)) /
+         static_cast<double>(std::max<std::size_t>(pixels, 1));
 }
 
 double Tally::worst_error() const {

@@ -26,7 +26,7 @@ constexpr double kClosest = 0.01;   ///< m along the optical axis
 /// Ranges, and hits on their face, agree to this share of (1 m + range), over the cosine of incidence.
 constexpr double kRangeShare = 4e-6;
 /// Corners are known to this share of (1 m + range + sides of the face), which counts where the face is narrow.
-constexpr double kCornerShare = 2e-7;
+constexpr double kCornerShare = 4e-7;
 /// Attributes agree with the texture at the hit that the back-end names: relative to their size, and at least absolute.
 constexpr double kAttribute = 2e-5;
 
@@ -39,13 +39,13 @@ struct Tally {
 
   void add(const Tally& other);
   std::size_t of(Verdict verdict) const { return count[static_cast<std::size_t>(verdict)]; }
-  /// Share of pixels that are neither `same` nor faults.
+  /// Share of pixels that rounding decides: ties, edges, slivers.
   double doubtful() const;
   double worst_error() const;
 };
 
-/// Judges every pixel of a view of `map` whose arrays are filled, faces seen from behind culled, texels interpolated.
-/// tree: of the same map.
+/// Judges every pixel of a view of `map` whose arrays are filled, texels interpolated. tree: of the same map, with back
+/// faces as the view has them.
 Tally judge(const PpmMap& map, const FaceTree& tree, const Prediction& view);
 
 }  // namespace ppm::test

@@ -14,7 +14,7 @@ struct Scene {
   std::string name;
   std::shared_ptr<const PpmMap> map;
   std::vector<Look> looks;
-  double doubtful = 0.002;  ///< largest share of pixels that rounding may decide
+  double doubtful = 0.004;  ///< largest share of pixels that rounding may decide
 };
 
 /// Surfaces of known shape: a wave cut into chunks, a plane whose vertices and edges lie exactly on rays, a room.

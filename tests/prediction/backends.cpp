@@ -42,7 +42,8 @@ std::vector<std::string> exact_backends() {
 
 Views deferred_views(const std::string& backend, const std::shared_ptr<const Map>& map, const std::vector<Look>& looks,
                      int threads) {
-  const auto params = fmt::format("{{stride: {}}}", looks.front().stride);
+  const auto params = fmt::format("{{stride: {}, backfaces: {}}}", looks.front().stride,
+                                  looks.front().cull_back_faces ? "cull" : "hit");
   Views views{std::make_unique<Harness>(builtin(), backend, params, threads), {}};
   auto frame = std::make_shared<Frame>();
   frame->camera = looks.front().camera;

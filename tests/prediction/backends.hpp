@@ -18,6 +18,7 @@ struct Look {
   Camera camera;  ///< the frame's
   int stride = 1;
   Pose T_map_camera = Pose::Identity();
+  bool cull_back_faces = true;
 };
 
 /// Views of one map by a back-end's module, deferred where it defers: its harness and the map live as long as they do.
@@ -25,7 +26,7 @@ struct Views {
   std::unique_ptr<Harness> harness;
   std::vector<PredictionHandle> of;  ///< in the order of the looks
 };
-/// looks: share camera and stride.
+/// looks: share all but the pose.
 Views deferred_views(const std::string& backend, const std::shared_ptr<const Map>& map, const std::vector<Look>& looks,
                      int threads = 1);
 /// One view with its arrays filled.

@@ -17,7 +17,7 @@ bool passes(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin, const
 
 }  // namespace
 
-FaceTree::FaceTree(const PpmMap& map) {
+FaceTree::FaceTree(const PpmMap& map, bool cull_back_faces) : cull_(cull_back_faces) {
   for (std::uint32_t c = 0; c < map.table().size(); ++c) {
     const Geometry& g = *map.table()[c].geometry;
     for (std::uint32_t f = 0; f < g.face.size(); ++f) {
@@ -72,7 +72,8 @@ void FaceTree::visit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direc
     for (std::uint32_t i = boxes_[b].first; i < boxes_[b].end; ++i) {
       const Face& f = faces_[i];
       const auto hit = plane_crossing(f.p0, f.e1, f.e2, origin, direction);
-      if (hit && hit->cosine < 0 && hit->inside(0)) meet(OracleHit{hit->range, f.chunk, f.face, hit->u, hit->v});
+      if (hit && !(cull_ && hit->cosine > 0) && hit->inside(0))
+        meet(OracleHit{hit->range, f.chunk, f.face, hit->u, hit->v});
     }
   }
 }

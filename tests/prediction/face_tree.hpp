@@ -10,10 +10,12 @@
 namespace ppm::test {
 
 /// The oracle's answer for many rays: all faces of a map in double precision, in a tree of boxes that leaves out of a
-/// ray's way only what its box is out of the way. A face is met on its edges too; one seen from behind is not there.
+/// ray's way only what its box is out of the way. A face is met on its edges too; one seen from behind is not there
+/// unless back faces are to be hit.
 class FaceTree {
  public:
-  explicit FaceTree(const PpmMap& map);
+  explicit FaceTree(const PpmMap& map, bool cull_back_faces = true);
+  bool culls_back_faces() const { return cull_; }
 
   /// The nearest crossing beyond a range of `from`; range INFINITY where there is none. direction: unit.
   OracleHit nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from = 0) const;
@@ -34,6 +36,7 @@ class FaceTree {
   template <class Meet>
   void visit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, const double& limit, Meet meet) const;
 
+  bool cull_;
   std::vector<Face> faces_;
   std::vector<Box> boxes_;
 };

@@ -17,17 +17,19 @@ using namespace ppm::test;
 namespace {
 
 /// Tallies by back-end, over all looks at a scene.
-std::map<std::string, Tally> tallies(const Scene& scene) {
-  const FaceTree tree(*scene.map);
+std::map<std::string, Tally> tallies(const Scene& scene, bool cull_back_faces = true) {
+  const FaceTree tree(*scene.map, cull_back_faces);
   std::map<std::string, Tally> found;
   for (const auto& backend : exact_backends())
-    for (const Look& look : scene.looks)
+    for (Look look : scene.looks) {
+      look.cull_back_faces = cull_back_faces;
       found[backend].add(judge(*scene.map, tree, *view_of(backend, scene.map, look)));
+    }
   return found;
 }
 
-void check(const Scene& scene) {
-  for (const auto& [backend, tally] : tallies(scene)) {
+void check(const Scene& scene, bool cull_back_faces = true) {
+  for (const auto& [backend, tally] : tallies(scene, cull_back_faces)) {
     INFO(backend << ", " << scene.name << ": " << tally.first_fault);
     CHECK(tally.of(Verdict::fault) == 0);
     CHECK(tally.doubtful() <= scene.doubtful);
@@ -49,6 +51,11 @@ TEST_CASE("back-ends agree with the oracle on shaped surfaces") {
 
 TEST_CASE("back-ends agree with the oracle on soups of triangles") {
   for (const Scene& scene : soups()) check(scene);
+}
+
+TEST_CASE("back-ends agree with the oracle where faces seen from behind are hit") {
+  check(shaped_scenes().front(), false);
+  for (const Scene& scene : soups()) check(scene, false);
 }
 
 TEST_CASE("back-ends agree with the oracle on a map of the embedded room, in colour") {
@@ -89,13 +96,14 @@ TEST_CASE("a view that is wrong is a fault") {
 }
 
 TEST_CASE("the oracle's tree of boxes finds what trying every triangle finds") {
+  const bool cull = GENERATE(true, false);
   for (const Scene& scene : soups()) {
-    const FaceTree tree(*scene.map);
+    const FaceTree tree(*scene.map, cull);
     Rng rng(3, 0, 0, purpose_key("rays"));
     for (int i = 0; i < 100; ++i) {
       const double x = rng.normal(), y = rng.normal(), z = rng.normal();
       const Eigen::Vector3d origin = 0.1 * Eigen::Vector3d(y, z, x), direction = Eigen::Vector3d(x, y, z).normalized();
-      const auto all = all_hits(*scene.map, origin, direction, true, 0);
+      const auto all = all_hits(*scene.map, origin, direction, cull, 0);
       const auto exact = nearest_hit(all), found = tree.nearest(origin, direction);
       CHECK(tree.all(origin, direction).size() == all.size());
       CHECK(found.range == exact.range);
