@@ -145,7 +145,8 @@ class Judge {
     const double sides = t.e1.norm() + t.e2.norm(), corner = kCornerShare * (1 + at->range + sides);
     const double side = at->cosine > 0 ? -1 : 1;  // turned where the face is seen from behind
     raise(tally_.normal, (normal - side * n).norm() / (1e-6 + corner * sides / cross.norm()));
-    const double allowed = tolerance(at->range, at->cosine) + corner * sides * sides / cross.norm();
+    const double allowed = tolerance(at->range, at->cosine) +
+                           corner * (sides * sides / cross.norm() + 1 / std::max(std::abs(at->cosine), 1e-6));
     const double taken_back = beyond_edge(*at);
     raise(tally_.range, std::abs(view_.range[p] - at->range) / (allowed + taken_back));
     const double off = ((u - at->u) * t.e1 + (v - at->v) * t.e2).norm();

@@ -31,6 +31,22 @@ bool runs_here(const std::string& name) {
   return false;
 }
 
+std::string params_of(const Look& look) {
+  return fmt::format("{{stride: {}, backfaces: {}}}", look.stride, look.cull_back_faces ? "cull" : "hit");
+}
+
+std::vector<PredictionHandle> look_at(Harness& harness, const std::shared_ptr<const Map>& map,
+                                      const std::vector<Look>& looks) {
+  auto frame = std::make_shared<Frame>();
+  frame->camera = looks.front().camera;
+  harness.input<Frame>("frame", frame);
+  auto& belief = harness.belief();
+  belief.init(looks.size(), Pose::Identity(), map);
+  for (std::size_t i = 0; i < looks.size(); ++i) belief.pose[i] = looks[i].T_map_camera;
+  harness.tick();
+  return belief.prediction;
+}
+
 }  // namespace
 
 std::vector<std::string> exact_backends() {
@@ -42,22 +58,15 @@ std::vector<std::string> exact_backends() {
 
 Views deferred_views(const std::string& backend, const std::shared_ptr<const Map>& map, const std::vector<Look>& looks,
                      int threads) {
-  const auto params = fmt::format("{{stride: {}, backfaces: {}}}", looks.front().stride,
-                                  looks.front().cull_back_faces ? "cull" : "hit");
-  Views views{std::make_unique<Harness>(builtin(), backend, params, threads), {}};
-  auto frame = std::make_shared<Frame>();
-  frame->camera = looks.front().camera;
-  views.harness->input<Frame>("frame", frame);
-  auto& belief = views.harness->belief();
-  belief.init(looks.size(), Pose::Identity(), map);
-  for (std::size_t i = 0; i < looks.size(); ++i) belief.pose[i] = looks[i].T_map_camera;
-  views.harness->tick();
-  views.of = belief.prediction;
+  Views views{std::make_unique<Harness>(builtin(), backend, params_of(looks.front()), threads), {}};
+  views.of = look_at(*views.harness, map, looks);
   return views;
 }
 
-PredictionHandle view_of(const std::string& backend, const std::shared_ptr<const Map>& map, const Look& look) {
-  return filled(deferred_views(backend, map, {look}).of.front());
+PredictionHandle Viewer::see(const Look& look) {
+  auto& harness = harness_[params_of(look)];
+  if (!harness) harness = std::make_unique<Harness>(builtin(), backend_, params_of(look));
+  return filled(look_at(*harness, map_, {look}).front());
 }
 
 PredictionHandle filled(const PredictionHandle& view) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,8 +30,17 @@ struct Views {
 /// looks: share all but the pose.
 Views deferred_views(const std::string& backend, const std::shared_ptr<const Map>& map, const std::vector<Look>& looks,
                      int threads = 1);
-/// One view with its arrays filled.
-PredictionHandle view_of(const std::string& backend, const std::shared_ptr<const Map>& map, const Look& look);
+/// Single views of one map, with their arrays filled, by a module that stays open from view to view.
+class Viewer {
+ public:
+  Viewer(std::string backend, std::shared_ptr<const Map> map) : backend_(std::move(backend)), map_(std::move(map)) {}
+  PredictionHandle see(const Look& look);
+
+ private:
+  std::string backend_;
+  std::shared_ptr<const Map> map_;
+  std::map<std::string, std::unique_ptr<Harness>> harness_;  // by parameters
+};
 /// The view with its arrays filled. The caller holds the map.
 PredictionHandle filled(const PredictionHandle& view);
 

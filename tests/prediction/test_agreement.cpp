@@ -20,11 +20,13 @@ namespace {
 std::map<std::string, Tally> tallies(const Scene& scene, bool cull_back_faces = true) {
   const FaceTree tree(*scene.map, cull_back_faces);
   std::map<std::string, Tally> found;
-  for (const auto& backend : exact_backends())
+  for (const auto& backend : exact_backends()) {
+    Viewer viewer(backend, scene.map);
     for (Look look : scene.looks) {
       look.cull_back_faces = cull_back_faces;
-      found[backend].add(judge(*scene.map, tree, *view_of(backend, scene.map, look)));
+      found[backend].add(judge(*scene.map, tree, *viewer.see(look)));
     }
+  }
   return found;
 }
 
@@ -70,7 +72,8 @@ TEST_CASE("a view that is wrong is a fault") {
   const Scene scene = shaped_scenes().front();
   const FaceTree tree(*scene.map);
   const Look& look = scene.looks.front();
-  const Prediction right = *view_of(exact_backends().front(), scene.map, look);
+  Viewer viewer(exact_backends().front(), scene.map);
+  const Prediction right = *viewer.see(look);
   const std::size_t p = right.range.size() / 2;
   REQUIRE(right.hit(p));
   REQUIRE(right.face[p] != right.face[0]);
@@ -90,7 +93,7 @@ TEST_CASE("a view that is wrong is a fault") {
   // A twentieth of a pixel is seen on edges.
   Look beside = look;
   beside.camera.cx += 0.05;
-  Prediction moved = *view_of(exact_backends().front(), scene.map, beside);
+  Prediction moved = *viewer.see(beside);
   moved.camera = right.camera;
   CHECK(judge(*scene.map, tree, moved).of(Verdict::fault) > 10);
 }
