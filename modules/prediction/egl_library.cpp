@@ -27,9 +27,10 @@ EglLibrary open_library() {
   load(egl, "eglInitialize", egl.Initialize);
   load(egl, "eglMakeCurrent", egl.MakeCurrent);
   load(egl, "eglQueryString", egl.QueryString);
+  load(egl, "eglReleaseThread", egl.ReleaseThread);
   load(egl, "eglGetPlatformDisplayEXT", egl.GetPlatformDisplay);
   if (!egl.BindAPI || !egl.CreateContext || !egl.DestroyContext || !egl.GetError || !egl.Initialize ||
-      !egl.MakeCurrent || !egl.QueryString || !egl.GetPlatformDisplay)
+      !egl.MakeCurrent || !egl.QueryString || !egl.ReleaseThread || !egl.GetPlatformDisplay)
     throw Error("this EGL cannot do without a display: it lacks eglGetPlatformDisplayEXT");
   const char* client = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   const bool lists =

@@ -16,12 +16,27 @@ struct EglLibrary {
   PFNEGLINITIALIZEPROC Initialize = nullptr;
   PFNEGLMAKECURRENTPROC MakeCurrent = nullptr;
   PFNEGLQUERYSTRINGPROC QueryString = nullptr;
+  PFNEGLRELEASETHREADPROC ReleaseThread = nullptr;
   PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay = nullptr;
   PFNEGLQUERYDEVICESEXTPROC QueryDevices = nullptr;            ///< null where EGL cannot list devices
   PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString = nullptr;  ///< null where EGL cannot list devices
 
   /// Throws Error where there is no EGL that can do without a display.
   static const EglLibrary& get();
+};
+
+/// Whoever calls EGL has one of these on the stack: at its end EGL forgets the thread. EGL frees what it keeps of a
+/// thread when the thread ends, and once more when the process does: a worker that ends at that very time would crash
+/// it.
+class EglThread {
+ public:
+  EglThread() : egl_(EglLibrary::get()) {}
+  EglThread(const EglThread&) = delete;
+  EglThread& operator=(const EglThread&) = delete;
+  ~EglThread() { egl_.ReleaseThread(); }
+
+ private:
+  const EglLibrary& egl_;
 };
 
 /// A way to a device that EGL knows.

@@ -56,6 +56,7 @@ const char* text(const GlFunctions& gl, GLenum name) {
 
 GlContext::GlContext(GlDevice wanted) : gl_(std::make_unique<GlFunctions>()) {
   const EglLibrary& egl = EglLibrary::get();
+  const EglThread thread;
   std::string reasons;
   for (const auto& choice : egl_displays(egl)) {
     if (wanted != GlDevice::any && choice.software != (wanted == GlDevice::software)) continue;
@@ -63,14 +64,14 @@ GlContext::GlContext(GlDevice wanted) : gl_(std::make_unique<GlFunctions>()) {
     context_ = make_context(egl, choice, reason);
     display_ = choice.display;
     if (context_) {
-      const Current current(*this);
+      egl.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
       reason = load_functions(egl, *gl_);
       if (reason.empty()) {
         renderer_ = fmt::format("{}, {}", text(*gl_, GL_RENDERER), text(*gl_, GL_VERSION));
         return;
       }
+      egl.DestroyContext(display_, context_);  // goes when the thread is released
     }
-    if (context_) egl.DestroyContext(display_, context_);
     context_ = nullptr;
     reasons += fmt::format("; {} {}", choice.name, reason);
   }
@@ -81,17 +82,21 @@ GlContext::GlContext(GlDevice wanted) : gl_(std::make_unique<GlFunctions>()) {
 }
 
 GlContext::~GlContext() {
-  if (context_) EglLibrary::get().DestroyContext(display_, context_);
+  const EglThread thread;
+  EglLibrary::get().DestroyContext(display_, context_);
 }
 
 GlContext::Current::Current(const GlContext& context) : context_(context) {
   const EglLibrary& egl = EglLibrary::get();
   egl.BindAPI(EGL_OPENGL_API);  // of this thread
-  if (!egl.MakeCurrent(context.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_))
-    throw Error(fmt::format("the OpenGL context cannot be used (EGL error {:#x})", egl.GetError()));
+  if (egl.MakeCurrent(context.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_)) return;
+  const EGLint error = egl.GetError();
+  egl.ReleaseThread();
+  throw Error(fmt::format("the OpenGL context cannot be used (EGL error {:#x})", error));
 }
 
 GlContext::Current::~Current() {
+  const EglThread thread;
   EglLibrary::get().MakeCurrent(context_.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
