@@ -125,10 +125,16 @@ void RasterView::elements(const Prediction&, const Rows& rows, std::span<std::ui
     const RasterBand* band = band_of_row_[static_cast<std::size_t>(y)];
     PPM_CHECK(band, "row {} was not drawn", y);
     const std::uint32_t* shown = band->shown.data() + static_cast<std::size_t>(y - band->first_row) * cols;
+    std::uint32_t last = RasterBand::kNone, its_chunk = Prediction::kNone, its_face = Prediction::kNone;
     for (std::size_t x = 0; x < cols; ++x, ++p) {
-      const bool miss = shown[x] == RasterBand::kNone;
-      chunk[p] = miss ? Prediction::kNone : band->texels_of(shown[x]).chunk;
-      face[p] = miss ? Prediction::kNone : band->face_of(shown[x]);
+      if (shown[x] != last) {  // neighbours often show one triangle
+        last = shown[x];
+        const bool miss = last == RasterBand::kNone;
+        its_chunk = miss ? Prediction::kNone : band->texels_of(last).chunk;
+        its_face = miss ? Prediction::kNone : band->face_of(last);
+      }
+      chunk[p] = its_chunk;
+      face[p] = its_face;
     }
   }
 }
