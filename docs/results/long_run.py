@@ -68,7 +68,8 @@ print(f"| a particle beyond the first: share of a map, median over the run; at t
 print(f"| memory of the process at the end, resident; in use, MB | {resident[-1]:.0f}; {heap[-1]:.0f} |")
 print(f"| growth of what is in use and is no map, MB in 1,000 frames | {rest_slope:+.1f} ± {rest_error:.1f} |")
 print("\nErrors are standard errors of the fit to medians over 25 frames. A particle's share counts all that it does not have in "
-      "common with another: after resampling most particles descend from few, and what their ancestors mapped is theirs together.")
+      "common with another: after resampling most particles descend from few, and what their ancestors mapped is theirs together. What is in use and is no map holds the "
+      "memory that modules keep for reuse (views, scratch of the update); which of them grow was not taken apart.")
 
 figure, axes = plt.subplots(1, 3, figsize=(12, 3.4), constrained_layout=True)
 axes[0].plot(frame[1:], ms[1:], ".", markersize=2, color="0.7", label="frame")
@@ -80,7 +81,7 @@ axes[1].plot(frame, heap, label="process, in use")
 axes[1].plot(at, owned, label=f"maps of {run['particles']} particles")
 axes[1].plot(at, one, label="one map")
 axes[1].set_ylabel("memory, MB")
-axes[1].set_ylim(0, None)
+axes[1].set_ylim(0, 1.45 * np.max(resident))
 axes[2].plot(at, 100 * share)
 axes[2].axhline(5, color="0.5", linestyle="--")
 axes[2].set_ylabel("a particle beyond the first, % of a map")
@@ -89,5 +90,5 @@ for axis in axes:
     axis.set_xlabel("frame")
     axis.grid(alpha=0.3)
 for axis in axes[:2]:
-    axis.legend()
+    axis.legend(loc="upper left", fontsize=8)
 figure.savefig(sys.argv[2], dpi=90)
