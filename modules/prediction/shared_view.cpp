@@ -19,9 +19,9 @@ const PpmMap& as_ppm(const Map& map) {
 
 /// Predicts views of mesh maps that many particles share: one view is drawn between particles that stand close together
 /// (as prediction.raster draws it, with a margin around the image), and each particle's pixels are carried over to it. A
-/// ray is followed to the pixel of the shared view where its point appears, by the inverse depth found there, in two
-/// steps; then it meets the plane of the element that this pixel shows. Texel mean and variance, and colour, are those
-/// of that pixel. So a particle sees the surface where it is from its own pose; what is lost is what only it sees:
+/// ray is followed to the pixel of the shared view where its point appears, by the inverse depth found in the ray's
+/// direction; then it meets the plane of the surface there. Texel mean and variance, and colour, are those of that
+/// pixel. So a particle sees the surface where it is from its own pose; what is lost is what only it sees:
 ///   - behind a depth jump, what the shared view hides is not known: the ray meets one of the planes on either side
 ///   - an element that is seen so flat that its plane would be carried beyond twice or half the depth is taken at the
 ///     depth of the shared view's pixel
@@ -42,7 +42,7 @@ class SharedViewPredictor final : public ViewPredictor {
   SharedViewPredictor() : ViewPredictor("map.ppm", Views::approximate) {
     params_.add("distance_most", limits_.distance_m)
         .unit("m")
-        .range(0, 10)
+        .range(0, 1)
         .doc("Largest distance of a particle from the pose of the view that it shares.");
     params_.add("angle_most", limits_.angle_rad)
         .unit("rad")
@@ -151,7 +151,7 @@ class SharedViewPredictor final : public ViewPredictor {
     return static_cast<double>(*nearest);
   }
 
-  GroupLimits limits_{0.05, 2 * EIGEN_PI / 180};
+  GroupLimits limits_{0.1, 4 * EIGEN_PI / 180};
   int group_least_ = 6;
   double detail_ = 1;
   RasterOptions options_;

@@ -60,7 +60,7 @@ struct Line {
       : spread(s),
         name(weighting + " " + params),
         exact("prediction.raster", "{}", weighting, params),
-        shared("prediction.shared_view", "{distance_most: 10, angle_most: 28 deg, " + options + "}", weighting, params) {}
+        shared("prediction.shared_view", "{distance_most: 1, angle_most: 28 deg, " + options + "}", weighting, params) {}
 
   void run(const std::shared_ptr<const Frame>& frame, const MapHandle& map, std::size_t particles) {
     Rng rng(1, static_cast<std::uint32_t>(frame->index), 0, purpose_key("shared_view_weights"));
