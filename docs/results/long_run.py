@@ -68,8 +68,9 @@ print(f"| a particle beyond the first: share of a map, median over the run; at t
 print(f"| memory of the process at the end, resident; in use, MB | {resident[-1]:.0f}; {heap[-1]:.0f} |")
 print(f"| growth of what is in use and is no map, MB in 1,000 frames | {rest_slope:+.1f} ± {rest_error:.1f} |")
 print("\nErrors are standard errors of the fit to medians over 25 frames. A particle's share counts all that it does not have in "
-      "common with another: after resampling most particles descend from few, and what their ancestors mapped is theirs together. What is in use and is no map holds the "
-      "memory that modules keep for reuse (views, scratch of the update); which of them grow was not taken apart.")
+      "common with another: after resampling most particles descend from few, and what their ancestors mapped is theirs together. What is in use and is no map is memory kept for "
+      "reuse, most of it by the views of `prediction.raster`, each of which keeps the memory of the largest view that it was used for: with "
+      "`prediction.embree` the same graph had 69 MB in use at the end, 25 of them maps and 16 acceleration structures.")
 
 figure, axes = plt.subplots(1, 3, figsize=(12, 3.4), constrained_layout=True)
 axes[0].plot(frame[1:], ms[1:], ".", markersize=2, color="0.7", label="frame")
