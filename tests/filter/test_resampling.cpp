@@ -42,7 +42,7 @@ TEST_CASE("systematic: each particle gets n w copies, rounded down or up") {
   }
 }
 
-TEST_CASE("residual: each particle gets at least n w copies, rounded down; stratified: fewer than two from n w") {
+TEST_CASE("residual: each particle gets at least n w copies, rounded down, stratified fewer than two from n w") {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     const std::size_t n = 2 + seed % 40;
     const auto w = random_weights(n, seed);

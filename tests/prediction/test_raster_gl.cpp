@@ -150,7 +150,7 @@ TEST_CASE("of two faces at the same place the lower one is seen") {
           static_cast<std::ptrdiff_t>(view->face.size()));
 }
 
-TEST_CASE("maps share triangles on the device; what no map uses any more makes room for others") {
+TEST_CASE("maps share triangles on the device, what no map uses any more makes room for others") {
   if (!can_draw()) return;
   GlViews gl({});
   auto map = wave_map(0.5);
