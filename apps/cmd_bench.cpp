@@ -9,6 +9,7 @@
 #include "apps/bench/bench_run.hpp"
 #include "apps/commands.hpp"
 #include "apps/graph_options.hpp"
+#include "framework/config/units.hpp"
 #include "framework/core/atomic_file.hpp"
 
 namespace ppm {
@@ -21,6 +22,7 @@ struct BenchOptions {
   bool quick = false, list = false;
   std::optional<int> rounds;
   int threads = 0;
+  std::string texel_size = "4 cm";
   std::vector<std::filesystem::path> plugins;
 };
 
@@ -42,6 +44,15 @@ std::vector<BenchCase> chosen(const BenchPlan& plan, const BenchOptions& options
   return cases;
 }
 
+double texel_size_of(const BenchOptions& options) {
+  double metres = 0;
+  const Place place{"--texel-size " + options.texel_size};
+  if (const auto wrong = parse_quantity(options.texel_size, "m", metres); !wrong.empty())
+    throw ConfigError(place, wrong);
+  if (!(metres >= 1e-3)) throw ConfigError(place, "must be 1 mm or more");
+  return options.quick ? 0.1 : metres;
+}
+
 /// Its name as the system gives it; "unknown" where it gives none.
 std::string processor() {
   std::ifstream in("/proc/cpuinfo");
@@ -52,7 +63,7 @@ std::string processor() {
 
 void bench(const BenchOptions& options) {
   const Registry registry = make_registry(options.plugins);
-  BenchWorlds worlds(registry, options.quick ? 0.1 : PpmSettings{}.texel_size_m);
+  BenchWorlds worlds(registry, texel_size_of(options));
   const int threads = Workers(options.threads).threads();
   const BenchPlan plan = options.quick ? quick_plan(registry, worlds, threads) : full_plan(registry, worlds, threads);
   const auto cases = chosen(plan, options);
@@ -67,7 +78,7 @@ void bench(const BenchOptions& options) {
   const auto results = run_cases(cases, rounds, options.quick ? 1e-3 : 0.1, log);
   const auto kernels = kernel_shares(plan, results);
   if (file) {
-    file->write(bench_json({processor(), threads, rounds, options.quick}, results, kernels));
+    file->write(bench_json({processor(), threads, rounds, options.quick, texel_size_of(options)}, results, kernels));
     file->commit();
   }
   fmt::print("{}", result_table(results));
@@ -94,6 +105,11 @@ void add_bench(CLI::App& app) {
                    "Most worker threads, where their number varies; 0 is as many as the machine has")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
+  command
+      ->add_option("--texel-size", options->texel_size,
+                   "Of the maps; 4 cm gives as many texels a face as maps of real rooms have (about ten)")
+      ->capture_default_str()
+      ->type_name("LENGTH");
   add_plugin_option(*command, options->plugins);
   command->footer("A back-end that this machine cannot run is left out, with the reason.");
   command->callback([options] { bench(*options); });

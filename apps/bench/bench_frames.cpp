@@ -25,6 +25,7 @@ enum class Maps {
 enum class Update {
   full,    ///< all, in every frame
   texels,  ///< all in each sixth frame, in the others texels alone
+  alone,   ///< texels alone, in every frame: the map explains what is seen
   sparse,  ///< all in each sixth frame, nothing in the others
 };
 
@@ -40,7 +41,16 @@ std::string name_of(Maps maps) {
   return maps == Maps::own ? "own" : maps == Maps::cloned ? "cloned" : "shared";
 }
 std::string name_of(Update update) {
-  return update == Update::full ? "full" : update == Update::texels ? "keyframes_and_texels" : "keyframes";
+  switch (update) {
+    case Update::full:
+      return "full";
+    case Update::texels:
+      return "keyframes_and_texels";
+    case Update::alone:
+      return "texels";
+    default:
+      return "keyframes";
+  }
 }
 
 BenchFilter filter_of(const FrameSetup& s) {
@@ -55,6 +65,7 @@ BenchFilter filter_of(const FrameSetup& s) {
   filter.weigh_params = s.maps == Maps::shared ? fmt::format("{{pixels: {}}}", s.pixels) : kFlatWeights;
   filter.ess_below = 0.5;
   filter.update = "map_update.ppm_bayes";
+  if (s.update == Update::alone) filter.update_params = "{keyframe_every: 1000000, between: texels}";
   if (s.update == Update::texels) filter.update_params = "{keyframe_every: 6, between: texels}";
   if (s.update == Update::sparse) filter.view = kFastest, filter.update_every = 6;
   return filter;
@@ -99,12 +110,14 @@ void add_cases_of(const BenchPlan& plan, int triangles, std::vector<BenchCase>& 
     cases.push_back(frame_case(plan, {group, backend, triangles, particles, threads, maps, update}));
   };
   for (Maps maps : {Maps::own, Maps::cloned})
-    for (Update update : {Update::full, Update::texels}) add("update", kFastest, 1, maps, update);
+    for (Update update : {Update::full, Update::texels, Update::alone}) add("update", kFastest, 1, maps, update);
   for (const auto& backend : plan.exact) {
     if (triangles > kLarge && backend != kFastest) continue;
     for (int threads : plan.threads) add("frame", backend, threads, Maps::cloned, Update::texels);
   }
   add("frame", kFastest, most_threads, Maps::own, Update::texels);
+  for (Maps maps : {Maps::own, Maps::cloned})
+    for (int threads : plan.threads) add("frame", kFastest, threads, maps, Update::alone);
   add("frame", kFastest, most_threads, Maps::cloned, Update::full);
 }
 

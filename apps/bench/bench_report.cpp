@@ -97,7 +97,8 @@ std::string bench_json(const BenchSession& session, const std::vector<BenchResul
                {"processor", session.processor},
                {"threads", session.threads},
                {"rounds", session.rounds},
-               {"quick", session.quick}};
+               {"quick", session.quick},
+               {"texel_size_m", session.texel_size_m}};
   json["cases"] = Json::array();
   for (const auto& r : results) json["cases"].push_back(case_json(r));
   json["ratios"] = Json::array();

@@ -12,6 +12,7 @@ struct BenchSession {
   std::string processor;
   int threads = 1, rounds = 1;
   bool quick = false;
+  double texel_size_m = 0;  ///< of the maps
 };
 
 /// One line a case.

@@ -1,4 +1,6 @@
-"""Page (to stdout) and plots of what `ppm bench` measured: views.py BENCH.json AGREEMENT.md PLOT_FOLDER"""
+"""Page (to stdout) and plots of what `ppm bench` measured: views.py BENCH.json FINE.json AGREEMENT.md PLOT_FOLDER
+
+FINE: weights and frames of the rasterizer on maps with finer texels."""
 import json
 import sys
 
@@ -10,8 +12,10 @@ import matplotlib.pyplot as plt
 with open(sys.argv[1]) as file:
     bench = json.load(file)
 with open(sys.argv[2]) as file:
+    fine = json.load(file)
+with open(sys.argv[3]) as file:
     agreement = file.read()
-folder = sys.argv[3]
+folder = sys.argv[4]
 cases = [c for c in bench["cases"] if "ms_best" in c]
 left_out = {c["settings"]["backend"]: c["left_out"] for c in bench["cases"] if "left_out" in c and "backend" in c["settings"]}
 backends = sorted({c["settings"]["backend"] for c in cases if "backend" in c["settings"]})
@@ -19,10 +23,14 @@ SIZES = ("20000", "100000", "500000")
 LABEL = {"20000": "20k", "100000": "100k", "500000": "500k"}
 
 
-def find(group, **settings):
+def find(group, among=cases, **settings):
     """The one case with exactly these settings, or None."""
     wanted = {k: str(v) for k, v in settings.items()}
-    return next((c for c in cases if c["group"] == group and c["settings"] == wanted), None)
+    return next((c for c in among if c["group"] == group and c["settings"] == wanted), None)
+
+
+def find_fine(group, **settings):
+    return find(group, among=fine["cases"], **settings)
 
 
 def ms(case, digits=3):
@@ -41,7 +49,7 @@ def roof(of, threads):
 threads = bench["threads"]
 print("# Views, weights and frames: what they cost\n")
 print(f"Written by `bash docs/results/views.sh` from one run of `ppm bench`: {bench['processor']}, {threads} threads, the least of "
-      f"{bench['rounds']} rounds over all cases. Scene: a closed room of 6 x 5 x 2.7 m with ten boxes, uniformly meshed, texels every 2 cm, cells "
+      f"{bench['rounds']} rounds over all cases. Scene: a closed room of 6 x 5 x 2.7 m with ten boxes, uniformly meshed, texels every {100 * bench['texel_size_m']:.0f} cm, cells "
       "as in `map.ppm_empty`; a camera of 176 x 144 pixels. All times are of the graph's own nodes in the executor. Views are jittered by 2 cm and "
       "1 degree; in whole frames, whose map update would take the edges of things for new surface from such poses, by 3 mm and "
       "0.2 degrees as in the graphs that ship.\n")
@@ -71,6 +79,14 @@ def targets():
     for weighting in ("gaussian", "robust"):
         row(f"weigh one particle, full image, 20k / 100k triangles, one thread, `weighting.{weighting}`", "0.21 / 0.51 ms", (0.20, 0.45),
             [find("weigh", backend="prediction.raster", weighting="weighting." + weighting, triangles=n) for n in (20000, 100000)])
+    row("the same with texels every 2 cm, `weighting.gaussian`", "0.21 / 0.51 ms", (0.20, 0.45),
+        [find_fine("weigh", backend="prediction.raster", weighting="weighting.gaussian", triangles=n) for n in (20000, 100000)])
+    for maps, text in (("own", "written in place"), ("cloned", "all chunks in view cloned, in every frame")):
+        for size, found in ((bench, find), (fine, find_fine)):
+            row(f"whole frame a particle, 20k / 100k, {threads} threads, own maps; texels (every {100 * size['texel_size_m']:.0f} cm) alone, {text}",
+                "0.25 / 0.65 ms", (0.20, 0.50),
+                [found("frame", backend="prediction.raster", maps=maps, update="texels", triangles=n, particles=32, threads=threads)
+                 for n in (20000, 100000)])
     for maps, update, text in (("cloned", "keyframes_and_texels", "texels in every frame, new surface in each sixth; chunks cloned"),
                                ("own", "keyframes_and_texels", "the same, written in place"),
                                ("cloned", "full", "the whole update in every frame, chunks cloned")):
@@ -182,7 +198,7 @@ def filter_tables():
     print("View, likelihood of all pixels, resampling and map update: ms a particle and frame. Every particle's map is its own, shape and "
           "texels; `cloned`: the maps of the frame before are kept, so that every chunk that is written is cloned first; `own`: nothing is; "
           "`shared`: all particles start with one map, and are resampled by `weighting.robust` as it is by default but for the number of pixels. The update is `full` in every "
-          "frame; `keyframes and texels`: in each sixth, in between the texels of what is seen (`keyframe_every: 6`); `keyframes`: view and update "
+          "frame; `texels`: of what is seen alone, as where the map explains the view; `keyframes and texels`: in each sixth, in between the texels of what is seen (`keyframe_every: 6`); `keyframes`: view and update "
           "in each sixth frame alone (`when: {every: 6}`), by `prediction.raster`.\n")
     rows = [c for c in cases if c["group"] == "frame"]
     print("| back-end | maps | update | triangles | particles | threads | pixels | ms |")

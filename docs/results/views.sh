@@ -12,8 +12,10 @@ trap 'rm -f "$page.part"' EXIT
 
 echo "ppm bench" >&2
 "$ppm" bench --json "$out/bench.json" >"$out/bench.txt"
+"$ppm" bench --texel-size "2 cm" --filter '^(weigh|frame)/prediction.raster/(weigh|.*/texels/).*triangles:(20|100)000' --json "$out/bench_fine.json" \
+  >"$out/bench_fine.txt"
 "$agreement" "[.table]" | grep '^|' >"$out/agreement.md"
-/usr/bin/python3 docs/results/views.py "$out/bench.json" "$out/agreement.md" "$out" >"$page.part"
+/usr/bin/python3 docs/results/views.py "$out/bench.json" "$out/bench_fine.json" "$out/agreement.md" "$out" >"$page.part"
 mv "$out"/views_*.png docs/images/
 mv "$page.part" "$page"
 echo "wrote $page"

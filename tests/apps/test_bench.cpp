@@ -75,3 +75,11 @@ TEST_CASE("bench that cannot write its JSON says so before it measures") {
   CHECK(run->code != 0);
   CHECK_THAT(run->err, Contains("b.json"));
 }
+
+TEST_CASE("bench refuses a texel size that is none, with its place") {
+  for (const auto& [size, says] : {std::pair<std::string, std::string>{"0 cm", "1 mm"}, {"3 deg", "deg"}}) {
+    const auto run = ppm_command({"bench", "--list", "--texel-size", size});
+    CHECK(run->code == 2);
+    CHECK_THAT(run->err, Contains("--texel-size " + size) && Contains(says));
+  }
+}
