@@ -1,4 +1,4 @@
-"""Page (to stdout) and plot of a run's time and memory by frame: long_run.py RUN_FOLDER PLOT.png"""
+"""Page (to stdout) and plot of a run's time and memory by frame: long_run.py RUN_FOLDER SPARSE_RUN_FOLDER PLOT.png"""
 import csv
 import json
 import sys
@@ -16,14 +16,20 @@ def columns(path, *names):
     return [np.array([float(r[n]) if r[n] else np.nan for r in rows]) for n in names]
 
 
+def load(folder):
+    """run.json; and of the frames whose maps were counted: number, MB of all maps, of one, and a particle's share beyond the first."""
+    with open(folder + "/run.json") as file:
+        run = json.load(file)
+    at, owned, alone = columns(folder + "/metrics.csv", "frame", "table.map_bytes_owned", "table.map_bytes_alone")
+    known = ~np.isnan(owned)
+    at, owned, one = at[known], owned[known] / 1e6, alone[known] / 1e6 / run["particles"]
+    return run, at, owned, one, (owned - one) / (run["particles"] - 1) / one
+
+
 folder = sys.argv[1]
-with open(folder + "/run.json") as file:
-    run = json.load(file)
+run, at, owned, one, share = load(folder)
+sparse, _, _, _, sparse_share = load(sys.argv[2])
 frame, ms, wall, resident, heap = columns(folder + "/times.csv", "frame", "cpu_ms", "wall_ms", "resident_mb", "heap_mb")
-at, owned, alone = columns(folder + "/metrics.csv", "frame", "table.map_bytes_owned", "table.map_bytes_alone")
-known = ~np.isnan(owned)
-at, owned, one = at[known], owned[known] / 1e6, alone[known] / 1e6 / run["particles"]
-share = (owned - one) / (run["particles"] - 1) / one
 
 block = 25  # frames: medians over so many
 starts = np.arange(block, len(frame) - block + 1, block)
@@ -67,6 +73,13 @@ print(f"| a particle beyond the first: share of a map, median over the run; at t
       f"{100 * np.median(share):.1f} %; {100 * share[-1]:.1f} %; {100 * np.max(share):.1f} % |")
 print(f"| memory of the process at the end, resident; in use, MB | {resident[-1]:.0f}; {heap[-1]:.0f} |")
 print(f"| growth of what is in use and is no map, MB in 1,000 frames | {rest_slope:+.1f} ± {rest_error:.1f} |")
+print("\nThe same with a map update in each fourth frame alone (`--set update.keyframe_every=4 --set update.between=nothing`):\n")
+print("| | every frame | every fourth |")
+print("|---|---|---|")
+print(f"| frames/s | {run['fps']:.1f} | {sparse['fps']:.1f} |")
+print(f"| ATE, cm | {100 * run['trajectory']['ate_rmse_m']:.2f} | {100 * sparse['trajectory']['ate_rmse_m']:.2f} |")
+print("| a particle beyond the first: share of a map, median; at the end; most | " + " | ".join(
+    f"{100 * np.median(s):.1f} %; {100 * s[-1]:.1f} %; {100 * np.max(s):.1f} %" for s in (share, sparse_share)) + " |")
 print("\nErrors are standard errors of the fit to medians over 25 frames. A particle's share counts all that it does not have in "
       "common with another: after resampling most particles descend from few, and what their ancestors mapped is theirs together. What is in use and is no map is memory kept for "
       "reuse, most of it by the views of `prediction.raster`, each of which keeps the memory of the largest view that it was used for: with "
@@ -92,4 +105,4 @@ for axis in axes:
     axis.grid(alpha=0.3)
 for axis in axes[:2]:
     axis.legend(loc="upper left", fontsize=8)
-figure.savefig(sys.argv[2], dpi=90)
+figure.savefig(sys.argv[3], dpi=90)
