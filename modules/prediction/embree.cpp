@@ -3,17 +3,13 @@
 
 #include "framework/graph/registry.hpp"
 #include "framework/roles/view_predictor.hpp"
-#include "modules/maps/ppm/ppm_map.hpp"
 #include "modules/prediction/embree_scenes.hpp"
 #include "modules/prediction/embree_view.hpp"
+#include "modules/prediction/mesh_view.hpp"
 
 namespace {
 
 using namespace ppm;
-
-const PpmMap& as_ppm(const Map& map) {
-  return static_cast<const PpmMap&>(map);
-}
 
 /// Predicts views of a mesh map by ray casting.
 ///
@@ -37,16 +33,11 @@ class EmbreePredictor final : public ViewPredictor {
         .doc("Watertight test of ray against triangle: no ray slips between two faces.");
     params_.add_choice("build", scene_.build, {{"low", Build::low}, {"medium", Build::medium}, {"high", Build::high}})
         .doc("Quality of the acceleration structures: low builds fastest, high traces fastest.");
-    params_.add_choice("backfaces", view_.cull_back_faces, {{"cull", true}, {"hit", false}})
-        .doc(
-            "What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it "
-            "there.");
+    declare_mesh_view(params_, view_.cull_back_faces, view_.linear_texels);
     params_.add_choice("rays", rays_, {{"image", Rays::image}, {"compared", Rays::compared}})
         .doc(
             "Which pixels get a ray: all of the image, or, when they are asked for, those that a weighting compares: "
             "cheaper where it compares few of a full image.");
-    params_.add_choice("texel", view_.linear_texels, {{"nearest", false}, {"linear", true}})
-        .doc("Mean and variance at a hit: of the nearest texel, or interpolated between texels.");
   }
 
   void open(Context& context) override {
@@ -63,10 +54,7 @@ class EmbreePredictor final : public ViewPredictor {
 
   void prepare(const std::vector<const Map*>& maps, const Workers& workers) override {
     if (!scenes_) scenes_ = std::make_unique<EmbreeScenes>(scene_);
-    std::vector<const PpmMap*> meshes;
-    meshes.reserve(maps.size());
-    for (const Map* map : maps) meshes.push_back(&as_ppm(*map));
-    scenes_->update(meshes, workers);
+    scenes_->update(as_ppm(maps), workers);
   }
 
   std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const override {

@@ -3,15 +3,12 @@
 
 #include "framework/graph/registry.hpp"
 #include "framework/roles/view_predictor.hpp"
+#include "modules/prediction/mesh_view.hpp"
 #include "modules/prediction/raster_drawing.hpp"
 
 namespace {
 
 using namespace ppm;
-
-const PpmMap& as_ppm(const Map& map) {
-  return static_cast<const PpmMap&>(map);
-}
 
 /// Predicts views of a mesh map by drawing its triangles on the processor: which triangle each pixel shows first, what
 /// is known of it when asked. The same answers as prediction.embree's, without acceleration structures.
@@ -23,30 +20,22 @@ const PpmMap& as_ppm(const Map& map) {
 class RasterPredictor final : public ViewPredictor {
  public:
   RasterPredictor() : ViewPredictor("map.ppm") {
-    params_.add_choice("backfaces", options_.cull_back_faces, {{"cull", true}, {"hit", false}})
-        .doc(
-            "What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it "
-            "there.");
-    params_.add_choice("texel", options_.linear_texels, {{"nearest", false}, {"linear", true}})
-        .doc("Mean and variance at a hit: of the nearest texel, or interpolated between texels.");
+    declare_mesh_view(params_, options_.cull_back_faces, options_.linear_texels);
   }
 
-  void prepare(const std::vector<const Map*>&, const Workers& workers) override { scratch_.resize(workers.threads()); }
+  void prepare(const std::vector<const Map*>&, const Workers& workers) override { drawer_.prepare(workers); }
 
   std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const override {
-    auto view = views_.take();
-    view->start(as_ppm(map), out, options_);
-    return view;
+    return drawer_.start(as_ppm(map), out, options_);
   }
 
   void predict(const Map&, const Rows& rows, Prediction& out, int worker) const override {
-    draw_rows(rows, static_cast<RasterView&>(*out.deferred), scratch_[worker]);
+    drawer_.draw(rows, out, worker);
   }
 
  private:
   RasterOptions options_;
-  mutable Pool<RasterView> views_;
-  mutable PerWorker<RasterScratch> scratch_;
+  mutable RasterDrawer drawer_;
 };
 
 }  // namespace

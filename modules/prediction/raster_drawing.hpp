@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "modules/prediction/raster_view.hpp"
@@ -21,5 +22,25 @@ struct RasterScratch {
 /// Draws rows of a view that was started: chunks in the image, nearest first. A pure function of its arguments: the
 /// same pixels each time, however rows are grouped.
 void draw_rows(const Rows& rows, RasterView& view, RasterScratch& scratch);
+
+/// Starts and draws views for a ViewPredictor, with memory that is used again.
+class RasterDrawer {
+ public:
+  void prepare(const Workers& workers) { scratch_.resize(workers.threads()); }
+  /// See ViewPredictor::defer().
+  std::shared_ptr<DeferredView> start(const PpmMap& map, const Prediction& out, const RasterOptions& options) {
+    auto view = views_.take();
+    view->start(map, out, options);
+    return view;
+  }
+  /// Draws rows of a view that start() gave. One caller a worker, after prepare().
+  void draw(const Rows& rows, Prediction& out, int worker) {
+    draw_rows(rows, static_cast<RasterView&>(*out.deferred), scratch_[worker]);
+  }
+
+ private:
+  Pool<RasterView> views_;
+  PerWorker<RasterScratch> scratch_;
+};
 
 }  // namespace ppm

@@ -3,16 +3,12 @@
 
 #include "framework/graph/registry.hpp"
 #include "framework/roles/view_predictor.hpp"
-#include "modules/maps/ppm/ppm_map.hpp"
 #include "modules/prediction/gl_views.hpp"
+#include "modules/prediction/mesh_view.hpp"
 
 namespace {
 
 using namespace ppm;
-
-const PpmMap& as_ppm(const Map& map) {
-  return static_cast<const PpmMap&>(map);
-}
 
 /// Predicts views of a mesh map with OpenGL, without a display: the device finds which face each pixel shows, the
 /// processor where its ray meets that face, and the texels there.
@@ -29,12 +25,7 @@ const PpmMap& as_ppm(const Map& map) {
 class GlPredictor final : public ViewPredictor {
  public:
   GlPredictor() : ViewPredictor("map.ppm") {
-    params_.add_choice("backfaces", options_.cull_back_faces, {{"cull", true}, {"hit", false}})
-        .doc(
-            "What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it "
-            "there.");
-    params_.add_choice("texel", linear_texels_, {{"nearest", false}, {"linear", true}})
-        .doc("Mean and variance at a hit: of the nearest texel, or interpolated between texels.");
+    declare_mesh_view(params_, options_.cull_back_faces, linear_texels_);
     params_.add("views_per_draw", options_.views_per_draw)
         .range(1, GlRasterizer::kMostViews)
         .doc("Particles whose views are drawn together.");
@@ -62,10 +53,7 @@ class GlPredictor final : public ViewPredictor {
   }
 
   void prepare(const std::vector<const Map*>& maps, const Workers&) override {
-    std::vector<const PpmMap*> meshes;
-    meshes.reserve(maps.size());
-    for (const Map* map : maps) meshes.push_back(&as_ppm(*map));
-    gl().update(meshes);
+    gl().update(as_ppm(maps));
   }
 
   void expect(const Camera& camera, const std::vector<ExpectedView>& expected) override {

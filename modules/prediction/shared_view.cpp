@@ -5,6 +5,7 @@
 
 #include "framework/graph/registry.hpp"
 #include "framework/roles/view_predictor.hpp"
+#include "modules/prediction/mesh_view.hpp"
 #include "modules/prediction/raster_drawing.hpp"
 #include "modules/prediction/view_groups.hpp"
 #include "modules/prediction/warped_view.hpp"
@@ -12,10 +13,6 @@
 namespace {
 
 using namespace ppm;
-
-const PpmMap& as_ppm(const Map& map) {
-  return static_cast<const PpmMap&>(map);
-}
 
 /// Predicts views of mesh maps that many particles share: one view is drawn between particles that stand close together
 /// (as prediction.raster draws it, with a margin around the image), and each particle's pixels are carried over to it. A
@@ -54,24 +51,17 @@ class SharedViewPredictor final : public ViewPredictor {
     params_.add("detail", detail_)
         .range(0.25, 4)
         .doc("Pixels of a shared view along one pixel of the frame's: more find edges more exactly.");
-    params_.add_choice("backfaces", options_.cull_back_faces, {{"cull", true}, {"hit", false}})
-        .doc(
-            "What a ray does at a face whose observed side looks away from it: cull lets it go on, hit stops it "
-            "there.");
-    params_.add_choice("texel", options_.linear_texels, {{"nearest", false}, {"linear", true}})
-        .doc("Mean and variance at a hit: of the nearest texel, or interpolated between texels.");
+    declare_mesh_view(params_, options_.cull_back_faces, options_.linear_texels);
   }
 
-  void prepare(const std::vector<const Map*>&, const Workers& workers) override { scratch_.resize(workers.threads()); }
+  void prepare(const std::vector<const Map*>&, const Workers& workers) override { drawer_.prepare(workers); }
 
   std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const override {
-    auto view = views_.take();
-    view->start(as_ppm(map), out, options_);
-    return view;
+    return drawer_.start(as_ppm(map), out, options_);
   }
 
   void predict(const Map&, const Rows& rows, Prediction& out, int worker) const override {
-    draw_rows(rows, static_cast<RasterView&>(*out.deferred), scratch_[worker]);
+    drawer_.draw(rows, out, worker);
   }
 
   void give(const Camera& camera, const std::vector<std::size_t>& particles, Context& context) override {
@@ -155,8 +145,7 @@ class SharedViewPredictor final : public ViewPredictor {
   int group_least_ = 6;
   double detail_ = 1;
   RasterOptions options_;
-  mutable Pool<RasterView> views_;
-  mutable PerWorker<RasterScratch> scratch_;
+  mutable RasterDrawer drawer_;
   Pool<PlaneView> planes_;
 };
 

@@ -2,10 +2,10 @@
 // pixels or filled.
 #include <catch2/catch.hpp>
 
-#include "framework/core/digest.hpp"
 #include "framework/core/rng.hpp"
 #include "modules/maps/ppm/meshed_room.hpp"
 #include "tests/prediction/backends.hpp"
+#include "tests/prediction/whole_views.hpp"
 
 using namespace ppm;
 using namespace ppm::test;
@@ -26,17 +26,9 @@ std::vector<Look> looks(std::size_t n) {
   return found;
 }
 
-std::string bytes_of(const Prediction& view) {
-  Digest digest;
-  for (const auto* array : {&view.range, &view.mean, &view.variance, &view.normal, &view.bary}) digest.add(*array);
-  digest.add(view.chunk);
-  digest.add(view.face);
-  return digest.hex();
-}
-
 std::vector<std::string> bytes_of(const Views& views) {
   std::vector<std::string> bytes;
-  for (const auto& view : views.of) bytes.push_back(bytes_of(*filled(view)));
+  for (const auto& view : views.of) bytes.push_back(test::bytes_of(*filled(view)));
   return bytes;
 }
 

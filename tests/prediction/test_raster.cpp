@@ -3,11 +3,11 @@
 #include <cmath>
 #include <hwy/highway.h>
 
-#include "framework/core/digest.hpp"
 #include "framework/slam/frame.hpp"
 #include "modules/maps/ppm/meshed_room.hpp"
 #include "modules/prediction/raster_drawing.hpp"
 #include "tests/prediction/backends.hpp"
+#include "tests/prediction/whole_views.hpp"
 #include "tests/support/mesh_map.hpp"
 #include "tests/support/registry.hpp"
 
@@ -53,14 +53,6 @@ Prediction in_bands(const PpmMap& map, const Camera& camera, const Pose& pose, i
     draw_rows({first, std::min(first + rows, camera.rows)}, view, scratch);
   view.fill(out, all_rows(camera), out);
   return out;
-}
-
-std::string bytes_of(const Prediction& view) {
-  Digest digest;
-  for (const auto* array : {&view.range, &view.mean, &view.variance, &view.normal, &view.bary}) digest.add(*array);
-  digest.add(view.chunk);
-  digest.add(view.face);
-  return digest.hex();
 }
 
 std::size_t hits(const Prediction& view) {

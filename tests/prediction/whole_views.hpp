@@ -1,8 +1,10 @@
 #pragma once
 #include <catch2/catch.hpp>
 #include <numeric>
+#include <string>
 #include <vector>
 
+#include "framework/core/digest.hpp"
 #include "framework/slam/particle_set.hpp"
 
 namespace ppm::test {
@@ -40,6 +42,15 @@ inline std::vector<PredictionHandle> whole_views(const ParticleSet& belief) {
     CHECK(face == whole.back()->face);
   }
   return whole;
+}
+
+/// What a view's arrays say of its geometry, as one number.
+inline std::string bytes_of(const Prediction& view) {
+  Digest digest;
+  for (const auto* array : {&view.range, &view.mean, &view.variance, &view.normal, &view.bary}) digest.add(*array);
+  digest.add(view.chunk);
+  digest.add(view.face);
+  return digest.hex();
 }
 
 }  // namespace ppm::test
