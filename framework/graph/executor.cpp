@@ -33,8 +33,8 @@ void Executor::open_nodes() {
     contexts_.push_back(context_);
     contexts_.back().enter(node.name);
     const Facets facets = facets_of(*node.module);
-    prediction_use_.push_back({speak_of(facets.needs, "prediction"),
-                               speak_of(facets.gives, "prediction") || speak_of(facets.drops, "prediction")});
+    prediction_use_.push_back({speak_of(facets.needs, "prediction"), speak_of(facets.gives, "prediction"),
+                               speak_of(facets.drops, "prediction")});
   }
   for (std::size_t i = 0; i < contexts_.size(); ++i) {
     const Node& node = graph_.nodes_[i];
@@ -127,12 +127,12 @@ std::size_t Executor::tick_loop(std::size_t first, const std::function<bool(cons
 bool Executor::prediction_is_read(std::size_t next, std::int64_t frame) const {
   constexpr std::int64_t kLook = 2;  // frames: what is not decided by then is kept
   for (std::size_t i = 0; i < prediction_use_.size(); ++i)
-    if (prediction_use_[i].reads && graph_.nodes_[i].gate.at_end) return true;
+    if (prediction_use_[i].needs && graph_.nodes_[i].gate.at_end) return true;
   for (auto f = frame; f < frame + kLook; ++f, next = 0) {
     for (std::size_t i = next; i < prediction_use_.size(); ++i) {
       if (!graph_.nodes_[i].gate.open(f)) continue;
-      if (prediction_use_[i].reads) return true;
-      if (prediction_use_[i].ends) return false;
+      if (prediction_use_[i].needs) return true;
+      if (prediction_use_[i].gives || prediction_use_[i].drops) return false;
     }
   }
   return true;

@@ -76,7 +76,7 @@ class Executor {
   Graph& graph_;
   Context& context_;
   struct PredictionUse {
-    bool reads = false, ends = false;  // needs the facet; gives it anew or drops it
+    bool needs = false, gives = false, drops = false;  // the facet, or a part of it
   };
   std::vector<PredictionUse> prediction_use_;  // by node
   std::vector<Context> contexts_;  // one a node, copies of context_: nodes of one loop run at the same time

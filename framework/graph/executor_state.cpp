@@ -5,7 +5,6 @@
 
 #include "framework/graph/error_context.hpp"
 #include "framework/graph/executor.hpp"
-#include "framework/graph/facet_state.hpp"
 #include "framework/slam/belief_file.hpp"
 
 namespace ppm {
@@ -77,11 +76,10 @@ void Executor::load(RecordFileReader& file) {
 /// Whether the belief carries a prediction into the next frame: the last node that gave or dropped it gave it.
 bool Executor::prediction_stands() const {
   for (auto frame = summary_.frames - 1; frame >= 0; --frame) {
-    for (auto node = graph_.nodes_.rbegin(); node != graph_.nodes_.rend(); ++node) {
-      if (!node->gate.open(frame)) continue;
-      const auto facets = facets_of(*node->module);
-      if (speak_of(facets.gives, "prediction")) return true;
-      if (speak_of(facets.drops, "prediction")) return false;
+    for (std::size_t i = prediction_use_.size(); i-- > 0;) {
+      if (!graph_.nodes_[i].gate.open(frame)) continue;
+      if (prediction_use_[i].gives) return true;
+      if (prediction_use_[i].drops) return false;
     }
   }
   return false;

@@ -147,12 +147,7 @@ PredictionHandle completed(const PredictionHandle& view, PredictionPool& pool, c
   if (!view->deferred) return view;
   auto out = pool.take();
   blank(*view, *out);
-  constexpr int kBand = 16;  // rows for one worker
-  const int rows = view->camera.rows;
-  workers.for_each(static_cast<std::size_t>((rows + kBand - 1) / kBand), [&](std::size_t band, int) {
-    const int first = static_cast<int>(band) * kBand;
-    view->deferred->fill(*view, {first, std::min(first + kBand, rows)}, *out);
-  });
+  for_each_band(workers, view->camera.rows, kBandRows, [&](const Rows& rows) { view->deferred->fill(*view, rows, *out); });
   return out;
 }
 

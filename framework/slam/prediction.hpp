@@ -10,14 +10,12 @@
 #include "framework/core/record.hpp"
 #include "framework/core/se3.hpp"
 #include "framework/slam/camera.hpp"
+#include "framework/slam/rows.hpp"
 #include "framework/slam/view_samples.hpp"
 
 namespace ppm {
 
-/// Some rows of an image: first, first + 1, .. end - 1.
-struct Rows {
-  int first = 0, end = 0;
-};
+/// All rows of a camera's image.
 inline Rows all_rows(const Camera& camera) {
   return {0, camera.rows};
 }

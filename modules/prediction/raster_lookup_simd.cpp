@@ -6,23 +6,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "modules/prediction/raster_lanes_inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace ppm {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using DF = hn::CappedTag<float, 16>;
-using DI = hn::RebindToSigned<DF>;
-using DU = hn::RebindToUnsigned<DF>;
-using VF = hn::Vec<DF>;
-using VI = hn::Vec<DI>;
-using VU = hn::Vec<DU>;
-using MF = hn::Mask<DF>;
-constexpr DF df;
-constexpr DI di;
-constexpr DU du;
-constexpr std::size_t kLanes = hn::MaxLanes(df);
 
 /// For each lane the number of lanes up to it, itself included, that are set.
 VI count_up_to(hn::Mask<DI> set) {

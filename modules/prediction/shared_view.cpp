@@ -95,7 +95,6 @@ class SharedViewPredictor final : public ViewPredictor {
   std::vector<std::shared_ptr<const PlaneView>> shared_views(const Camera& camera, const std::vector<ViewGroup>& groups,
                                                              const std::vector<ExpectedView>& views,
                                                              const Workers& workers) {
-    constexpr int kBandRows = 16;
     std::vector<ExpectedView> wanted;
     for (const auto& group : groups) wanted.push_back({views[group.members.front()].map, group.pose});
     auto drawn = predict_in_bands(camera, 1, wanted, workers);
@@ -103,11 +102,7 @@ class SharedViewPredictor final : public ViewPredictor {
     for (std::size_t g = 0; g < drawn.size(); ++g) {
       auto planes = planes_.take();
       planes->start(as_ppm(*wanted[g].map), std::move(drawn[g]));
-      const auto bands = static_cast<std::size_t>((camera.rows + kBandRows - 1) / kBandRows);
-      workers.for_each(bands, [&](std::size_t band, int) {
-        const int first = static_cast<int>(band) * kBandRows;
-        planes->fill({first, std::min(first + kBandRows, camera.rows)});
-      });
+      for_each_band(workers, camera.rows, kBandRows, [&](const Rows& rows) { planes->fill(rows); });
       made.push_back(std::move(planes));
     }
     return made;

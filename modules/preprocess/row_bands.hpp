@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "framework/core/parallel.hpp"
+#include "framework/slam/rows.hpp"
 
 namespace ppm {
 
@@ -10,11 +10,8 @@ namespace ppm {
 template <class Body>
 void for_row_bands(const Workers& workers, int rows, int cols, const Body& body) {
   constexpr int kPixels = 8192;  // about 50 us of work
-  const int height = std::max(1, kPixels / std::max(1, cols)), bands = (rows + height - 1) / height;
-  workers.for_each(static_cast<std::size_t>(bands), [&](std::size_t band, int) {
-    const int first = static_cast<int>(band) * height;
-    body(first, std::min(rows, first + height));
-  });
+  const int height = std::max(1, kPixels / std::max(1, cols));
+  for_each_band(workers, rows, height, [&](const Rows& band) { body(band.first, band.end); });
 }
 
 }  // namespace ppm

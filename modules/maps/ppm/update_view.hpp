@@ -13,10 +13,8 @@ namespace ppm {
 /// Calls body(y) once for each row of an image, several rows to a worker's turn.
 template <class Body>
 void for_each_row(const Workers& workers, int rows, const Body& body) {
-  constexpr int kTurn = 16;
-  workers.for_each(static_cast<std::size_t>((rows + kTurn - 1) / kTurn), [&](std::size_t turn, int) {
-    const int first = static_cast<int>(turn) * kTurn;
-    for (int y = first; y < std::min(first + kTurn, rows); ++y) body(y);
+  for_each_band(workers, rows, kBandRows, [&](const Rows& band) {
+    for (int y = band.first; y < band.end; ++y) body(y);
   });
 }
 
