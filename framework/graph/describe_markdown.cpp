@@ -68,6 +68,7 @@ std::string describe_markdown(const ModuleInfo& info) {
   const auto module = info.make();
   std::string out = fmt::format("{}# {}\n\n{}\n\nSource: {}\n", kGenerated, info.name, info.summary, info.source);
   out += ports_markdown(*module, PortDirection::in, "Inputs");
+  out += ports_markdown(*module, PortDirection::use, "Calls nodes");
   out += ports_markdown(*module, PortDirection::out, "Outputs");
   out += belief_markdown(*module);
   out += params_markdown(module->params());

@@ -76,6 +76,7 @@ std::string describe_text(const ModuleInfo& info) {
   std::string out =
       fmt::format("{}\n  {}\n  source: {}\n  from:   {}\n", info.name, info.summary, info.source, info.origin);
   out += ports_text(*module, PortDirection::in, "inputs");
+  out += ports_text(*module, PortDirection::use, "calls nodes");
   out += ports_text(*module, PortDirection::out, "outputs");
   out += belief_text(*module);
   std::vector<std::vector<std::string>> rows;

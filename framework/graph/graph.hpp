@@ -19,7 +19,7 @@ struct Node {
   Place place;
   std::unique_ptr<Module> module;
   struct Edge {
-    std::string port, from;  ///< own input port; "node.port" above
+    std::string port, from;  ///< own input port; "node.port" above, or the "node" that it calls
   };
   std::vector<Edge> edges;
 };

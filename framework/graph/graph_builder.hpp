@@ -41,6 +41,7 @@ class GraphBuilder {
   const PortBase* find_output(std::size_t i, const Config& source);
   std::string no_node_above(std::size_t i, const std::string& name) const;
   void connect(std::size_t i, PortBase& input, const PortBase& output, const Config& source);
+  void use_node(std::size_t i, UsePortBase& input, const Config& named);
   void report_unwired(std::size_t i, const PortBase& input);
   void make_outputs(std::size_t i);
   void check_source(const Config& file);

@@ -82,8 +82,10 @@ Json inputs_schema(const Module& module) {
   Json properties = Json::object();
   std::vector<std::string> required;
   for (const auto* port : module.ports()) {
-    if (port->direction() != PortDirection::in) continue;
-    properties[port->name()] = {{"type", "string"}, {"pattern", kOutputPattern}, {"description", port->doc()}};
+    const bool use = port->direction() == PortDirection::use;
+    if (!use && port->direction() != PortDirection::in) continue;
+    properties[port->name()] = {
+        {"type", "string"}, {"pattern", use ? kNamePattern : kOutputPattern}, {"description", port->doc()}};
     required.push_back(port->name());
   }
   return closed_object(std::move(properties), required);
@@ -114,7 +116,7 @@ Json node_schema(const Registry& registry) {
   Json schema =
       closed_object({{"name", {{"type", "string"}, {"pattern", kNamePattern}, {"description", "Unique in the file."}}},
                      {"module", {{"oneOf", std::move(modules)}}},
-                     {"in", {{"type", "object"}, {"description", "Own input: node.output above."}}},
+                     {"in", {{"type", "object"}, {"description", "Own input: node.output above; or a node that is called."}}},
                      {"when", params_schema(when)},
                      {"params", {{"type", {"object", "null"}}}}},
                     {"name", "module"});

@@ -71,8 +71,9 @@ std::string graph_dot(const Graph& graph) {
     out += fmt::format("  {} [label={}{}];\n", quoted(node.name), quoted(label), when.empty() ? "" : ", style=dashed");
     for (const auto& edge : node.edges) {
       const auto dot = edge.from.find('.');
-      out += fmt::format("  {} -> {} [label={}];\n", quoted(edge.from.substr(0, dot)), quoted(node.name),
-                         quoted(edge.from.substr(dot + 1)));
+      const bool use = dot == std::string::npos;
+      out += fmt::format("  {} -> {} [label={}{}];\n", quoted(edge.from.substr(0, dot)), quoted(node.name),
+                         quoted(use ? edge.port : edge.from.substr(dot + 1)), use ? ", style=dotted" : "");
     }
     if (!uses_belief(node)) continue;
     if (last) out += fmt::format("  {} -> {} [label=\"belief\", style=bold];\n", quoted(last->name), quoted(node.name));

@@ -22,6 +22,17 @@ Harness::Harness(const Registry& registry, const std::string& module, const std:
   context_.enter(module);
 }
 
+void Harness::use(const std::string& port, Module& called) {
+  for (PortBase* p : module_->ports()) {
+    if (p->direction() != PortDirection::use || p->name() != port) continue;
+    auto& input = static_cast<UsePortBase&>(*p);
+    input.used_ = input.as_used(called);
+    PPM_CHECK(input.used_, "'{}' cannot be called by input '{}'", input.type_name(), port);
+    return;
+  }
+  throw InternalError(fmt::format("the module calls no other as '{}'", port));
+}
+
 bool Harness::tick() {
   if (!opened_) module_->open(context_);
   if (ticked_) ++context_.frame_;

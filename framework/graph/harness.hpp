@@ -27,6 +27,8 @@ class Harness {
   std::shared_ptr<const T> output(const std::string& port) {
     return std::static_pointer_cast<const T>(*slot(PortDirection::out, port, typeid(T)));
   }
+  /// The module that an input calls; it must outlive the harness.
+  void use(const std::string& port, Module& called);
   ParticleSet& belief() { return belief_; }
   Module& module() { return *module_; }
   Context& context() { return context_; }

@@ -36,8 +36,8 @@ struct Facets {
   std::vector<std::string> drops;
 };
 
-/// A port of direction `belief` is a BeliefPortBase.
-enum class PortDirection { in, out, belief };
+/// A port of direction `belief` is a BeliefPortBase, one of direction `use` a UsePortBase.
+enum class PortDirection { in, out, belief, use };
 
 /// The part of a port that the graph sees. Registers itself with its module.
 class PortBase {
@@ -102,6 +102,37 @@ class Out : public PortBase {
     PPM_CHECK(slot_, "output '{}' is not wired to a graph", name_);
     *slot_ = std::move(value);
   }
+};
+
+/// The part of a Use that the graph sees.
+class UsePortBase : public PortBase {
+ public:
+  /// The module as what this port calls, or null where it is something else.
+  void* as_used(Module& module) const { return as_used_(module); }
+
+ protected:
+  friend class GraphBuilder;
+  friend class Harness;
+  UsePortBase(Module* owner, std::string name, std::string doc, std::type_index type, std::string_view type_name,
+              void* (*cast)(Module&))
+      : PortBase(owner, PortDirection::use, std::move(name), std::move(doc), type, type_name), as_used_(cast) {}
+  void* (*as_used_)(Module&);
+  void* used_ = nullptr;
+};
+
+/// Another node of the graph, above or below, that this one calls as a T (a role): `in: {view: look}` names the node,
+/// not an output. What is called must be as good as a function of its arguments: the node's own ticks are not seen.
+template <class T>
+class Use : public UsePortBase {
+ public:
+  Use(Module* owner, std::string name, std::string doc)
+      : UsePortBase(owner, std::move(name), std::move(doc), typeid(T), PortType<T>::name,
+                    [](Module& module) -> void* { return dynamic_cast<T*>(&module); }) {}
+  T& operator*() const {
+    PPM_CHECK(used_, "input '{}' names no node", name_);
+    return *static_cast<T*>(used_);
+  }
+  T* operator->() const { return &**this; }
 };
 
 /// Access to the belief, which the executor owns. It needs no `in:` line.

@@ -18,6 +18,13 @@ std::vector<PortBase*> ports_of(const Node& node, PortDirection direction) {
   return found;
 }
 
+/// What an `in:` line can name.
+std::vector<PortBase*> inputs_of(const Node& node) {
+  auto inputs = ports_of(node, PortDirection::in);
+  for (auto* port : ports_of(node, PortDirection::use)) inputs.push_back(port);
+  return inputs;
+}
+
 PortBase* find_port(const Node& node, PortDirection direction, const std::string& name) {
   for (auto* port : ports_of(node, direction)) {
     if (port->name() == name) return port;
@@ -41,7 +48,7 @@ std::string port_hint(const std::string& word, const std::vector<PortBase*>& por
 
 /// A node that makes values and needs none: it alone can end a run.
 bool is_source(const Node& node) {
-  return !ports_of(node, PortDirection::out).empty() && ports_of(node, PortDirection::in).empty() &&
+  return !ports_of(node, PortDirection::out).empty() && inputs_of(node).empty() &&
          ports_of(node, PortDirection::belief).empty();
 }
 
@@ -66,27 +73,59 @@ void GraphBuilder::wire_node(std::size_t i) {
   std::set<const PortBase*> meant;
   for (const auto& entry : in ? in->entries() : std::vector<Config::Entry>{}) {
     PortBase* input = find_input(i, entry);
+    if (input && input->direction() == PortDirection::use) {
+      meant.insert(input);
+      use_node(i, static_cast<UsePortBase&>(*input), entry.value);
+      continue;
+    }
     const PortBase* output = find_output(i, entry.value);
     meant.insert(input);
     if (input && output) connect(i, *input, *output, entry.value);
   }
-  for (auto* port : ports_of(graph_.nodes_[i], PortDirection::in)) {
+  for (auto* port : inputs_of(graph_.nodes_[i])) {
     if (!meant.contains(port)) report_unwired(i, *port);
   }
 }
 
 PortBase* GraphBuilder::find_input(std::size_t i, const Config::Entry& entry) {
   const Node& node = graph_.nodes_[i];
-  PortBase* input = find_port(node, PortDirection::in, entry.key);
-  if (input || !node.module) return input;
+  for (const auto direction : {PortDirection::in, PortDirection::use})
+    if (PortBase* input = find_port(node, direction, entry.key)) return input;
+  if (!node.module) return nullptr;
   if (find_port(node, PortDirection::belief, entry.key)) {
     report(entry.key_place, "the belief needs no 'in' line: it goes through the nodes from top to bottom");
     return nullptr;
   }
-  const auto inputs = ports_of(node, PortDirection::in);
+  const auto inputs = inputs_of(node);
   report(entry.key_place, fmt::format("module '{}' has no input '{}'{}", node.module_name, entry.key,
                                       port_hint(entry.key, inputs, "inputs")));
-  return find_port(node, PortDirection::in, did_you_mean(entry.key, names_of(inputs)));
+  const auto meant = did_you_mean(entry.key, names_of(inputs));
+  const auto found = std::ranges::find(inputs, meant, [](auto* port) { return port->name(); });
+  return found == inputs.end() ? nullptr : *found;
+}
+
+void GraphBuilder::use_node(std::size_t i, UsePortBase& input, const Config& named) {
+  const Node& user = graph_.nodes_[i];
+  const auto& name = named.text();
+  if (named.kind() != Config::Kind::scalar || name.find('.') != std::string::npos) {
+    report(named.place(), fmt::format("input '{}' names a node that is called, such as 'look', without an output", input.name()));
+    return;
+  }
+  std::vector<std::string> others;
+  for (const auto& node : graph_.nodes_) {
+    if (&node == &user) continue;
+    others.push_back(node.name);
+    if (node.name != name) continue;
+    if (!node.module) return;  // reported where it is written
+    input.used_ = input.as_used(*node.module);
+    if (!input.used_)
+      report(named.place(), fmt::format("input '{}' takes a node that is a '{}', but '{}' is '{}'", input.name(),
+                                        input.type_name(), name, node.module_name));
+    graph_.nodes_[i].edges.push_back({input.name(), name});
+    return;
+  }
+  report(named.place(), user.name == name ? fmt::format("node '{}' cannot use itself", name)
+                                          : fmt::format("no node '{}'{}", name, suggestion(name, others)));
 }
 
 void GraphBuilder::connect(std::size_t i, PortBase& input, const PortBase& output, const Config& source) {
@@ -135,14 +174,20 @@ std::string GraphBuilder::no_node_above(std::size_t i, const std::string& name) 
 
 void GraphBuilder::report_unwired(std::size_t i, const PortBase& input) {
   std::vector<std::string> above;
+  for (const auto& node : graph_.nodes_) {
+    if (input.direction() != PortDirection::use || !node.module) continue;
+    if (static_cast<const UsePortBase&>(input).as_used(*node.module)) above.push_back(node.name);
+  }
   for (std::size_t k = 0; k < i; ++k) {
     for (auto* port : ports_of(graph_.nodes_[k], PortDirection::out)) {
       if (port->type() == input.type()) above.push_back(graph_.nodes_[k].name + "." + port->name());
     }
   }
-  std::string hint = fmt::format("no node above makes a '{}'", input.type_name());
+  const bool use = input.direction() == PortDirection::use;
+  std::string hint = fmt::format("no node {} '{}'", use ? "is a" : "above makes a", input.type_name());
   if (above.size() == 1) hint = fmt::format("did you mean in: {{{}: {}}}?", input.name(), above[0]);
-  if (above.size() > 1) hint = fmt::format("outputs of its type above: {}", fmt::join(above, ", "));
+  if (above.size() > 1)
+    hint = fmt::format("{}: {}", use ? "nodes of its kind" : "outputs of its type above", fmt::join(above, ", "));
   report(written_[i].module,
          fmt::format("input '{}' of module '{}' is not wired; {}", input.name(), graph_.nodes_[i].module_name, hint));
 }

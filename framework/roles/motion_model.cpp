@@ -1,8 +1,25 @@
 #include "framework/roles/motion_model.hpp"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
 #include "framework/core/error.hpp"
 
 namespace ppm {
+
+namespace {
+
+/// A draw from N(0, covariance), which may be singular.
+Twist draw(const Matrix6& covariance, Rng rng) {
+  const Eigen::LDLT<Matrix6> root(covariance);
+  Twist z;
+  for (int i = 0; i < 6; ++i) z[i] = rng.normal();
+  z.array() *= root.vectorD().array().max(0.0).sqrt();
+  return root.transpositionsP().transpose() * (root.matrixL() * z);
+}
+
+}  // namespace
 
 std::optional<PathVelocity> last_velocity(const Trajectory& path) {
   const Trajectory before = path.parent();
@@ -12,18 +29,52 @@ std::optional<PathVelocity> last_velocity(const Trajectory& path) {
   return PathVelocity{se3_log(before.last().T_map_camera.inverse() * path.last().T_map_camera) / step_s, step_s};
 }
 
-MotionModel::MotionModel(const PoseNoise& noise) : noise_(noise) {
-  noise_.declare(params_, "noise added in each frame");
-}
-
 void MotionModel::tick(Context& context) {
   const auto now = frame.get();
   auto& particles = *belief;
+  auto& priors = particles.column<MotionPrior>(kMotionPriorColumn);
+  before(context);
   context.workers().for_each(particles.size(), [&](std::size_t i, int) {
     PPM_CHECK(!particles.trajectory[i].empty(), "the first frame must have begun the path");
-    const Pose predicted = predict(particles.trajectory[i], now->stamp_s);
-    particles.extend(i, {now->index, now->stamp_s, predicted * noise_.draw(context.rng("noise", i))});
+    priors[i] = expect(i, particles.trajectory[i], *now);
+    const Pose drawn = priors[i].T_map_camera * se3_exp(draw(priors[i].covariance, context.rng("noise", i)));
+    particles.extend(i, {now->index, now->stamp_s, drawn});
   });
+}
+
+PathMotion::PathMotion(const PoseNoise& noise) : noise_(noise) {
+  noise_.declare(params_, "noise added in each frame");
+  params_.add("noise_steps", noise_steps_)
+      .range(0, 1000)
+      .doc(
+          "Learns the noise from how far the model missed the last so many steps of the particle's own path; 0 takes "
+          "sigma_t and sigma_r as they are.");
+  params_.add("noise_prior", noise_prior_)
+      .range(0.01, 1000)
+      .doc("Number of steps that sigma_t and sigma_r count for where the noise is learnt.");
+  params_.add("noise_scale", noise_scale_)
+      .range(0.01, 100)
+      .doc("Factor on learnt standard deviations: above 1 to look beyond what has been met.");
+}
+
+MotionPrior PathMotion::expect(std::size_t, const Trajectory& path, const Frame& now) {
+  return {predict(path, now.stamp_s), (noise_steps_ > 0 ? learnt(path) : noise_).covariance()};
+}
+
+PoseNoise PathMotion::learnt(const Trajectory& path) const {
+  // A path's first step is a start from rest: no model foresees it.
+  double t = noise_prior_ * noise_.sigma_t * noise_.sigma_t, r = noise_prior_ * noise_.sigma_r * noise_.sigma_r;
+  double weight = noise_prior_;
+  Trajectory at = path;
+  for (int k = 0; k < noise_steps_ && at.length() > 2; ++k) {
+    const Trajectory before = at.parent();
+    const Twist e = se3_log(predict(before, at.last().stamp_s).inverse() * at.last().T_map_camera);
+    t += e.head<3>().squaredNorm() / 3;
+    r += e.tail<3>().squaredNorm() / 3;
+    weight += 1;
+    at = before;
+  }
+  return {noise_scale_ * std::sqrt(t / weight), noise_scale_ * std::sqrt(r / weight)};
 }
 
 }  // namespace ppm

@@ -15,6 +15,12 @@ void PoseNoise::declare(Params& params, const std::string& what) {
       .doc(fmt::format("Standard deviation of the rotation {}, about each axis of the camera.", what));
 }
 
+Matrix6 PoseNoise::covariance() const {
+  Twist sigma;
+  sigma << Eigen::Vector3d::Constant(sigma_t), Eigen::Vector3d::Constant(sigma_r);
+  return sigma.array().square().matrix().asDiagonal();
+}
+
 Pose PoseNoise::draw(Rng rng) const {
   Twist xi;
   for (int i = 0; i < 3; ++i) xi[i] = sigma_t * rng.normal();

@@ -4,6 +4,7 @@
 #include "framework/config/params.hpp"
 #include "framework/core/rng.hpp"
 #include "framework/core/se3.hpp"
+#include "framework/slam/motion_prior.hpp"
 
 namespace ppm {
 
@@ -14,6 +15,8 @@ struct PoseNoise {
 
   /// Declares the parameters sigma_t and sigma_r, with the values held as defaults. what: "noise added in each frame".
   void declare(Params& params, const std::string& what);
+  /// Of the twist.
+  Matrix6 covariance() const;
   /// T_camera_noisy; six draws, translation first.
   Pose draw(Rng rng) const;
 };

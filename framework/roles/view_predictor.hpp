@@ -9,6 +9,12 @@
 
 namespace ppm {
 
+class ViewPredictor;
+template <>
+struct PortType<ViewPredictor> {
+  static constexpr std::string_view name = "prediction.*";
+};
+
 /// What each particle should see: the base of every `prediction.*`. Fills the belief's prediction column. Particles
 /// with the same map at the same pose share one Prediction. Draws no random numbers.
 class ViewPredictor : public ParticleModule {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <span>
 
+#include "framework/slam/view_fit.hpp"
+
 namespace ppm {
 namespace {
 
@@ -17,7 +19,7 @@ double entropy(const std::vector<double>& log_weight) {
 
 }  // namespace
 
-Weighting::Weighting(int pixels) : belief(this, {{"prediction"}, {}, {}}), pixels_(pixels) {
+Weighting::Weighting(int pixels) : belief(this, {{"prediction"}, {"fit"}, {}}), pixels_(pixels) {
   params_.add("pixels", pixels_)
       .range(0, 1e8)
       .doc(
@@ -86,15 +88,15 @@ void Weighting::after(Context& context) {
                           any_hit ? "no particle has a finite weight" : "no compared pixel hits a map");
     warned_ = true;
   }
+  auto& fits = belief->column<ViewFit>(kViewFitColumn);
+  for (std::size_t i = 0; i < scores_.size(); ++i) fits[i] = ViewFit::of(scores_[i]);
   const ViewScore& best = scores_[belief->best()];
-  auto share = [](std::size_t part, std::size_t whole) {
-    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-  };
+  const ViewFit fit = fits[belief->best()];
   context.metric("ess", belief->ess());
   context.metric("entropy", entropy(belief->log_weight));
   context.metric("residual", best.hits > 0 ? best.residual_sum / static_cast<double>(best.hits) : 0.0);
-  context.metric("outlier_share", share(best.outliers, best.hits));
-  context.metric("miss_share", share(best.misses, best.hits + best.misses));
+  context.metric("outlier_share", static_cast<double>(fit.outliers));
+  context.metric("miss_share", static_cast<double>(fit.misses));
   context.metric("degenerate", degenerate ? 1.0 : 0.0);
 }
 

@@ -19,7 +19,7 @@ namespace ppm {
 /// as they were: a warning says so once, and the metric `degenerate` is 1 in that frame. A particle whose likelihood is
 /// no number gets weight 0.
 ///
-/// belief   needs a prediction of the frame's own camera (any stride); changes log_weight only
+/// belief   needs a prediction of the frame's own camera (any stride); changes log_weight, and says how far each view fits (see ViewFit)
 ///
 /// metrics  ess, entropy (nats), degenerate; of the best particle: residual (mean absolute, m), outlier_share (of
 ///          hits), miss_share (of compared pixels)

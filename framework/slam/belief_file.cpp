@@ -144,6 +144,7 @@ void save_belief(const ParticleSet& belief, const MapCodecs& codecs, bool predic
   out.add(belief.pose);
   out.add(belief.log_weight);
   out.add(belief.T_map_world);
+  out.add(belief.lost);
   save_paths(out, belief.trajectory);
   file.write(out);
   save_columns(belief, file);
@@ -157,6 +158,7 @@ void load_belief(ParticleSet& belief, const MapCodecs& codecs, RecordFileReader&
   in.take(read.pose);
   in.take(read.log_weight);
   in.take(read.T_map_world);
+  in.take(read.lost);
   read.trajectory = load_paths(in);
   in.finish();
   read.set_columns(load_columns(read.size(), file));

@@ -31,6 +31,9 @@ Frame decimated(const Frame& frame, int stride) {
   out.camera = from.decimated(stride);
   out.T_base_camera = frame.T_base_camera;
   out.T_world_camera_ref = frame.T_world_camera_ref;
+  out.imu = frame.imu;
+  out.T_odom_base = frame.T_odom_base;
+  out.held_out = frame.held_out;
   out.lateral_px = frame.lateral_px / static_cast<float>(stride);
   out.depth = kept(frame.depth, from, out.camera, stride, 1);
   out.sigma = kept(frame.sigma, from, out.camera, stride, 1);

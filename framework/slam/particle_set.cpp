@@ -14,6 +14,7 @@ void ParticleSet::init(std::size_t n, const Pose& T_map_camera, MapHandle map_ha
   map.assign(n, std::move(map_handle));
   prediction.assign(n, nullptr);
   T_map_world = Pose::Identity();
+  lost = false;
   for (auto& [name, column] : columns_) column->resize(n);
 }
 

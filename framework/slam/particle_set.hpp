@@ -31,6 +31,9 @@ class ParticleSet {
   /// poses: identity where the map started at a reference pose; empty where the first frame has none. Set by map.*.
   std::optional<Pose> T_map_world = Pose::Identity();
 
+  /// No particle explains what the camera sees, as a recovery.* node found: no map may learn from the frame.
+  bool lost = false;
+
   std::size_t size() const { return pose.size(); }
   /// n particles at one pose with equal weights and one shared map, in the reference's frame. Drops all paths; typed columns are
   /// resized and kept.

@@ -36,6 +36,7 @@ class PpmBayesUpdate final : public MapEditor {
   }
 
   MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) override {
+    if (frame->held_out || belief->lost) return map;
     const PredictionHandle view = belief->prediction[particle];
     PPM_CHECK(view, "particle {} has no prediction", particle);
     auto mesh = std::static_pointer_cast<const PpmMap>(std::move(map));

@@ -13,9 +13,9 @@ using namespace ppm;
 /// (dt_2 + dt_k) / 2. A path of two poses has no acceleration yet, one of one pose no velocity.
 ///
 /// source  paper, section 4.1
-class ConstantAcceleration final : public MotionModel {
+class ConstantAcceleration final : public PathMotion {
  public:
-  ConstantAcceleration() : MotionModel({0.02, std::numbers::pi / 180}) {
+  ConstantAcceleration() : PathMotion({0.02, std::numbers::pi / 180}) {
     params_.add("acceleration_decay", acceleration_decay_)
         .range(0, 1)
         .doc("Share of the acceleration that is kept: 1 is constant acceleration, 0 constant velocity.");

@@ -12,9 +12,9 @@ using namespace ppm;
 /// of one pose has no velocity yet.
 ///
 /// source  paper, section 4.1
-class ConstantVelocity final : public MotionModel {
+class ConstantVelocity final : public PathMotion {
  public:
-  ConstantVelocity() : MotionModel({0.02, std::numbers::pi / 180}) {
+  ConstantVelocity() : PathMotion({0.02, std::numbers::pi / 180}) {
     params_.add("velocity_decay", velocity_decay_)
         .range(0, 1)
         .doc("Share of the velocity that is kept: 1 is constant velocity, 0 a random walk.");

@@ -11,9 +11,9 @@ using namespace ppm;
 /// the next (shaken, handled, or stood on a tripod).
 ///
 /// source  Thrun, Burgard, Fox, "Probabilistic Robotics", 2005, chapter 5
-class RandomWalk final : public MotionModel {
+class RandomWalk final : public PathMotion {
  public:
-  RandomWalk() : MotionModel({0.02, std::numbers::pi / 180}) {}
+  RandomWalk() : PathMotion({0.02, std::numbers::pi / 180}) {}
 
  private:
   Pose predict(const Trajectory& path, double) const override { return path.last().T_map_camera; }
