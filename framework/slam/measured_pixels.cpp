@@ -6,11 +6,8 @@
 #include "framework/core/error.hpp"
 
 namespace ppm {
-namespace {
 
-// True where the depth at (x, y) is off the plane through its two neighbours, along the row or the column, by more than
-// jump_m and what the sensor's noise explains. Planes are linear in disparity, so a slope is no jump.
-bool at_jump(const Frame& frame, int x, int y, double jump_m) {
+bool at_depth_jump(const Frame& frame, int x, int y, double jump_m) {
   const Camera& camera = frame.camera;
   auto index = [&](int px, int py) { return static_cast<std::size_t>(py * camera.cols + px); };
   const double z = frame.depth[index(x, y)];
@@ -23,8 +20,6 @@ bool at_jump(const Frame& frame, int x, int y, double jump_m) {
          (y > 0 && y + 1 < camera.rows && off(index(x, y - 1), index(x, y + 1)));
 }
 
-}  // namespace
-
 MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int stride, const PixelGrid& grid) {
   PPM_CHECK(predicted == frame.camera.decimated(stride), "the prediction is of another camera than the frame");
   MeasuredPixels out;
@@ -32,7 +27,7 @@ MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int 
     for (int x = grid.first_x; x < predicted.cols; x += grid.step) {
       const int at = stride * y * frame.camera.cols + stride * x;
       if (!frame.valid(at)) continue;
-      if (grid.jump_m > 0 && at_jump(frame, stride * x, stride * y, grid.jump_m)) continue;
+      if (grid.jump_m > 0 && at_depth_jump(frame, stride * x, stride * y, grid.jump_m)) continue;
       const auto source = static_cast<std::size_t>(at);
       const double length = predicted.ray(x, y).norm();
       out.pixel.push_back(static_cast<std::uint32_t>(y * predicted.cols + x));

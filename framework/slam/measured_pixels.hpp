@@ -25,6 +25,10 @@ struct MeasuredPixels {
   std::size_t size() const { return pixel.size(); }
 };
 
+/// True where the depth at pixel (x, y), which has one, is off the plane through its two neighbours, along the row or the
+/// column, by more than jump_m and what the sensor's noise explains. Planes are linear in disparity, so a slope is no jump.
+bool at_depth_jump(const Frame& frame, int x, int y, double jump_m);
+
 /// predicted: camera of the Prediction, the frame's decimated by `stride`.
 MeasuredPixels measured_pixels(const Frame& frame, const Camera& predicted, int stride, const PixelGrid& grid);
 
