@@ -17,6 +17,8 @@ Frame FrameConditioning::apply(const Frame& image, int stride) const {
   const auto pixels = static_cast<std::size_t>(image.camera.pixels());
   PPM_CHECK(image.depth.size() == pixels, "frame {}: {} pixels, {} depths", image.index, pixels, image.depth.size());
   Frame out = decimated(image, stride);
+  out.camera = correction.camera(image.camera).decimated(stride);
+  correct_depth(correction, out);
   out.lateral_px = static_cast<float>(sigma_lateral / stride);
   out.color_sigma = static_cast<float>(sigma_color);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();

@@ -22,6 +22,7 @@ bool is_rotation(const Eigen::Matrix3d& R) {
 FrameSource::FrameSource() {
   declare_selection();
   declare_noise();
+  declare_correction();
 }
 
 void FrameSource::declare_selection() {
@@ -66,6 +67,23 @@ void FrameSource::declare_noise() {
       .doc("Noise of a colour channel, where 0 is black and 1 the brightest that the camera can tell.");
 }
 
+void FrameSource::declare_correction() {
+  CameraCorrection& c = conditioning_.correction;
+  params_.add("focal_scale", c.focal_scale)
+      .range(0.1, 10)
+      .doc("Corrects the camera: both focal lengths are multiplied by it. `ppm calibrate camera` finds it, and what follows.");
+  params_.add("cx_shift", c.cx_shift)
+      .unit("px")
+      .doc("Corrects the camera: added to the principal point's column, pixels of the image before pixel_stride.");
+  params_.add("cy_shift", c.cy_shift).unit("px").doc("The same for its row.");
+  params_.add("depth_factor", c.depth_factor)
+      .range(0.1, 10)
+      .doc("Corrects depths: z becomes depth_factor * z + depth_bend * z^2, before all else looks at it.");
+  params_.add("depth_bend", c.depth_bend)
+      .range(-1, 1)
+      .doc("Corrects depths, 1/m, see depth_factor; where the corrected depth no longer grows with z it is dropped.");
+}
+
 void FrameSource::open(Context& context) {
   open_for_evaluation();
   for (const auto& remark : sequence_->remarks()) context.log().warning("{}: {}", sequence_->name(), remark);
@@ -82,7 +100,9 @@ void FrameSource::open_for_evaluation() {
 void FrameSource::prefetch() {
   if (next_ == selection_.mapped.size()) return;
   prefetched_ =
-      std::async(std::launch::async, [this, index = selection_.mapped[next_]] { return load(index, pixel_stride_); });
+      std::async(std::launch::async, [this, index = selection_.mapped[next_]] {
+        return load(index, pixel_stride_, conditioning_);
+      });
 }
 
 void FrameSource::tick(Context& context) {
@@ -120,7 +140,13 @@ void FrameSource::load(RecordReader& in) {
 }
 
 Frame FrameSource::full_frame(std::int64_t index) const {
-  return load(index, 1);
+  return load(index, 1, conditioning_);
+}
+
+Frame FrameSource::full_frame(std::int64_t index, const CameraCorrection& correction) const {
+  FrameConditioning conditioning = conditioning_;
+  conditioning.correction = correction;
+  return load(index, 1, conditioning);
 }
 
 std::vector<StampedPose> FrameSource::reference(std::int64_t last) const {
@@ -141,12 +167,12 @@ std::optional<Pose> FrameSource::checked_pose(std::int64_t index) const {
   return orthonormalized(pose->matrix());
 }
 
-Frame FrameSource::load(std::int64_t index, int stride) const {
+Frame FrameSource::load(std::int64_t index, int stride, const FrameConditioning& conditioning) const {
   PPM_CHECK(sequence_, "the source is not open");
   Frame image = sequence_->read(index);
   PPM_CHECK(image.index == index, "asked for image {}, got {}", index, image.index);
   image.T_world_camera_ref = checked_pose(index);
-  return conditioning_.apply(image, stride);
+  return conditioning.apply(image, stride);
 }
 
 }  // namespace ppm

@@ -17,7 +17,7 @@
 namespace ppm {
 
 /// A sequence of images: the base of every `source.*`. A source opens a FrameSequence; selection, holding out,
-/// decimation, range limits, noise model and prefetch of the next frame are done here, the same for all. What goes
+/// correction of the camera, decimation, range limits, noise model and prefetch of the next frame are done here, the same for all. What goes
 /// wrong with an image is thrown by the tick whose image it is.
 class FrameSource : public Module {
  public:
@@ -35,6 +35,9 @@ class FrameSource : public Module {
   const std::vector<std::int64_t>& selected() const { return selection_.mapped; }
   /// A held-out image at the source's own resolution (no pixel stride), with range limits and sigma. Throws DataError.
   Frame full_frame(std::int64_t index) const;
+  /// The same with another correction of the camera than the parameters'.
+  Frame full_frame(std::int64_t index, const CameraCorrection& correction) const;
+  const CameraCorrection& camera_correction() const { return conditioning_.correction; }
   /// The reference path over the selected images, up to the image `last`, that have a pose; empty where the source has none.
   /// Valid after open(). Throws DataError where a pose is broken.
   std::vector<StampedPose> reference(std::int64_t last = std::numeric_limits<std::int64_t>::max()) const;
@@ -49,8 +52,9 @@ class FrameSource : public Module {
  private:
   void declare_selection();
   void declare_noise();
+  void declare_correction();
   std::optional<Pose> checked_pose(std::int64_t index) const;
-  Frame load(std::int64_t index, int stride) const;
+  Frame load(std::int64_t index, int stride, const FrameConditioning& conditioning) const;
   void prefetch();
 
   std::int64_t first_ = 0, last_ = -1, stride_ = 1;

@@ -73,6 +73,26 @@ TEST_CASE("noise is the model's where the source gives none, and the source's wh
   CHECK(std::isnan(out.sigma[1]));
 }
 
+TEST_CASE("the camera is put right before all else: principal point in pixels as read, depth before its limits") {
+  ppm::FrameConditioning conditioning;
+  conditioning.correction = {.focal_scale = 0.9, .cx_shift = 1, .cy_shift = -0.5, .depth_factor = 1.1, .depth_bend = 0.2};
+  conditioning.max_range_m = 2.5;
+  auto image = image_5x3();
+  const auto modelled = conditioning.apply(image, 2);
+  CHECK(modelled.camera == ppm::Camera{5, 3, 9, 10.8, 3, 0.5}.decimated(2));
+  CHECK(modelled.depth[1] == Approx(1.1 * 1.2 + 0.2 * 1.2 * 1.2));
+  CHECK(modelled.sigma[1] == Approx(conditioning.sigma(modelled.depth[1])));
+  CHECK(std::isnan(modelled.depth[5]));  // 2.4 m as read, beyond the limit as corrected
+  image.sigma.assign(15, 0.01f);
+  CHECK(conditioning.apply(image, 2).sigma[1] == Approx(0.01 * (1.1 + 0.4 * 1.2)));
+}
+
+TEST_CASE("a correction that would fold depths over drops them") {
+  const ppm::CameraCorrection correction{.depth_bend = -0.2};
+  CHECK(correction.depth(2.4) == Approx(2.4 - 0.2 * 2.4 * 2.4));
+  CHECK(std::isnan(correction.depth(2.6)));
+}
+
 TEST_CASE("an image whose arrays do not fit its camera is a bug that is told") {
   auto image = image_5x3();
   image.depth.pop_back();
