@@ -39,22 +39,22 @@ Resampler::Resampler() {
       .range(0, 1)
       .doc(
           "Resamples when the effective sample size is below this share of the particles; 1 resamples unless all "
-          "weights "
-          "are equal, 0 never.");
+          "weights are equal, 0 only where another number of particles is wanted.");
+  number_.declare(params_);
 }
 
 void Resampler::tick(Context& context) {
   auto& particles = *belief;
-  const auto n = particles.size();
+  const auto before = particles.size();
   const double ess = particles.ess();
-  const bool resample = ess < ess_below_ * static_cast<double>(n);
-  std::size_t distinct = n;
+  std::vector<double> weights(before);
+  std::ranges::transform(particles.log_weight, weights.begin(), [](double l) { return std::exp(l); });
+  const auto n = number_.wanted(particles, weights, context.rng("number"));
+  const bool resample = ess < ess_below_ * static_cast<double>(before) || n != before;
+  std::size_t distinct = before;
   if (resample) {
-    std::vector<double> weights(n);
-    std::ranges::transform(particles.log_weight, weights.begin(), [](double l) { return std::exp(l); });
-    const auto ancestors = draw(weights, context.rng("resample"));
-    PPM_CHECK(ancestors.size() == n && std::ranges::is_sorted(ancestors), "{} ancestors of {} particles",
-              ancestors.size(), n);
+    const auto ancestors = draw(weights, n, context.rng("resample"));
+    PPM_CHECK(ancestors.size() == n && std::ranges::is_sorted(ancestors), "{} ancestors of {} particles", ancestors.size(), n);
     distinct = 1;
     for (std::size_t k = 1; k < n; ++k) distinct += ancestors[k] != ancestors[k - 1];
     particles.gather(ancestors);
@@ -63,6 +63,8 @@ void Resampler::tick(Context& context) {
   context.metric("ess", ess);
   context.metric("resampled", resample ? 1 : 0);
   context.metric("ancestors", static_cast<double>(distinct));
+  context.metric("particles", static_cast<double>(before));
+  context.metric("drawn", static_cast<double>(n));
 }
 
 }  // namespace ppm

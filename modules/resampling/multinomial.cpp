@@ -9,8 +9,8 @@ using namespace ppm;
 ///
 /// source  Gordon, Salmond, Smith, "Novel approach to nonlinear/non-Gaussian Bayesian state estimation", 1993
 class Multinomial final : public Resampler {
-  std::vector<std::uint32_t> draw(std::span<const double> weights, Rng rng) const override {
-    return particles_at(sorted_uniforms(weights.size(), rng), weights);
+  std::vector<std::uint32_t> draw(std::span<const double> weights, std::size_t n, Rng rng) const override {
+    return particles_at(sorted_uniforms(n, rng), weights);
   }
 };
 

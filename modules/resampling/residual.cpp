@@ -13,12 +13,11 @@ using namespace ppm;
 ///
 /// source  Liu, Chen, "Sequential Monte Carlo methods for dynamic systems", JASA 1998
 class Residual final : public Resampler {
-  std::vector<std::uint32_t> draw(std::span<const double> weights, Rng rng) const override {
-    const auto n = weights.size();
+  std::vector<std::uint32_t> draw(std::span<const double> weights, std::size_t n, Rng rng) const override {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<std::uint32_t> ancestors;
-    std::vector<double> rest(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    std::vector<double> rest(weights.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
       const double wanted = static_cast<double>(n) * weights[i] / sum;
       // n w is whole for equal weights, but its rounding may lie below.
       const double copies = std::min(std::floor(wanted + 1e-9), static_cast<double>(n - ancestors.size()));

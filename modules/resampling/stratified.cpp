@@ -10,10 +10,9 @@ using namespace ppm;
 ///
 /// source  Kitagawa, "Monte Carlo filter and smoother", JCGS 1996
 class Stratified final : public Resampler {
-  std::vector<std::uint32_t> draw(std::span<const double> weights, Rng rng) const override {
-    const auto n = static_cast<double>(weights.size());
-    std::vector<double> points(weights.size());
-    for (std::size_t k = 0; k < points.size(); ++k) points[k] = (static_cast<double>(k) + rng.uniform()) / n;
+  std::vector<std::uint32_t> draw(std::span<const double> weights, std::size_t n, Rng rng) const override {
+    std::vector<double> points(n);
+    for (std::size_t k = 0; k < n; ++k) points[k] = (static_cast<double>(k) + rng.uniform()) / static_cast<double>(n);
     return particles_at(points, weights);
   }
 };

@@ -9,10 +9,10 @@ using namespace ppm;
 ///
 /// source  Kitagawa, "Monte Carlo filter and smoother", JCGS 1996
 class Systematic final : public Resampler {
-  std::vector<std::uint32_t> draw(std::span<const double> weights, Rng rng) const override {
-    const double u = rng.uniform(), n = static_cast<double>(weights.size());
-    std::vector<double> points(weights.size());
-    for (std::size_t k = 0; k < points.size(); ++k) points[k] = (static_cast<double>(k) + u) / n;
+  std::vector<std::uint32_t> draw(std::span<const double> weights, std::size_t n, Rng rng) const override {
+    const double u = rng.uniform();
+    std::vector<double> points(n);
+    for (std::size_t k = 0; k < n; ++k) points[k] = (static_cast<double>(k) + u) / static_cast<double>(n);
     return particles_at(points, weights);
   }
 };

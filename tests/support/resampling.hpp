@@ -12,8 +12,9 @@ namespace ppm::test {
 /// The number of copies of each particle after one resampling of a belief with these weights (they need not sum to
 /// one).
 inline std::vector<int> copies(const std::vector<double>& weights, std::uint64_t seed,
-                               const std::string& module = "resampling.systematic") {
-  Harness h(builtin(), module, "{ess_below: 1}", 1, seed);
+                               const std::string& module = "resampling.systematic",
+                               const std::string& params = "{ess_below: 1}") {
+  Harness h(builtin(), module, params, 1, seed);
   auto& belief = h.belief();
   belief.init(weights.size(), Pose::Identity(), nullptr);
   auto& number = belief.column<std::size_t>("test/number");
