@@ -74,7 +74,10 @@ PoseNoise PathMotion::learnt(const Trajectory& path) const {
     weight += 1;
     at = before;
   }
-  return {noise_scale_ * std::sqrt(t / weight), noise_scale_ * std::sqrt(r / weight)};
+  // A path that jumped (lost, found again) is no measure of the next step.
+  constexpr double kMost = 10;
+  return {noise_scale_ * std::min(std::sqrt(t / weight), kMost * noise_.sigma_t),
+          noise_scale_ * std::min(std::sqrt(r / weight), kMost * noise_.sigma_r)};
 }
 
 }  // namespace ppm

@@ -28,6 +28,10 @@ auto by_pointer(const Handles& handles, std::size_t a, std::size_t b) {
   return std::compare_three_way()(handles[a].get(), handles[b].get());
 }
 
+std::weak_ordering by_bytes(const std::vector<Pose>& poses, std::size_t a, std::size_t b) {
+  return std::memcmp(poses[a].data(), poses[b].data(), sizeof(double) * 16) <=> 0;
+}
+
 }  // namespace
 
 std::vector<std::size_t> twins(const ParticleSet& belief, bool same_prediction) {
@@ -35,7 +39,14 @@ std::vector<std::size_t> twins(const ParticleSet& belief, bool same_prediction) 
     if (auto c = by_pointer(belief.map, a, b); c != 0) return c;
     if (same_prediction)
       if (auto c = by_pointer(belief.prediction, a, b); c != 0) return c;
-    return std::memcmp(belief.pose[a].data(), belief.pose[b].data(), sizeof(double) * 16) <=> 0;
+    return by_bytes(belief.pose, a, b);
+  });
+}
+
+std::vector<std::size_t> twins(const ParticleSet& belief, const std::vector<Pose>& poses) {
+  return lowest_equal(belief.size(), [&](std::size_t a, std::size_t b) -> std::weak_ordering {
+    if (auto c = by_pointer(belief.map, a, b); c != 0) return c;
+    return by_bytes(poses, a, b);
   });
 }
 

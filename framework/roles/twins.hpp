@@ -11,6 +11,9 @@ namespace ppm {
 /// the work.
 std::vector<std::size_t> twins(const ParticleSet& belief, bool same_prediction);
 
+/// The same for other poses than the belief's own, one a particle.
+std::vector<std::size_t> twins(const ParticleSet& belief, const std::vector<Pose>& poses);
+
 /// For each particle the lowest particle with the same map, wherever they are.
 std::vector<std::size_t> map_twins(const ParticleSet& belief);
 

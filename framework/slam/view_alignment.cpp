@@ -9,6 +9,14 @@ namespace {
 
 constexpr float kMinSlope = 0.2f;  // least |normal . ray| that is divided by, see Prediction::kMinCosine
 
+/// How far a point is from a surface's tangent plane, along its own ray: a slanted surface is no error where the pixel's
+/// centre is not met exactly. Per unit of depth.
+float off_plane(const SurfaceView::Texel& s, const Eigen::Vector3f& q) {
+  const Eigen::Vector3f n(s.nx, s.ny, s.nz);
+  const float slope = std::max(std::abs(n.dot(q)) / q.z(), kMinSlope);
+  return std::abs(n.dot(q - Eigen::Vector3f(s.x, s.y, s.z))) / slope;
+}
+
 /// Points of the frame in the view's camera, and the surface where each is seen.
 class Association {
  public:
@@ -29,6 +37,17 @@ class Association {
     const auto& texel =
         view_.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(camera_.cols) + static_cast<std::size_t>(col)];
     return texel.hit > 0 ? &texel : nullptr;
+  }
+  /// Whether one of the pixels around a surface's own shows one that fits the point: at the edges of things the pixel that
+  /// a point falls onto is a matter of chance.
+  bool near_fits(const SurfaceView::Texel* own, const Eigen::Vector3f& q, float tolerance) const {
+    const auto at = static_cast<int>(own - view_.texels.data()), col = at % camera_.cols, row = at / camera_.cols;
+    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, camera_.rows - 1); ++y)
+      for (int x = std::max(col - 1, 0); x <= std::min(col + 1, camera_.cols - 1); ++x) {
+        const auto& s = view_.texels[static_cast<std::size_t>(y * camera_.cols + x)];
+        if (s.hit > 0 && off_plane(s, q) < tolerance) return true;
+      }
+    return false;
   }
   Eigen::Matrix3f R;
   Eigen::Vector3f t;
@@ -111,11 +130,8 @@ AlignmentFit alignment_fit(const MeasuredSurface::Level& level, const SurfaceVie
     const auto* s = association.at(q);
     if (!s) continue;
     ++fit.seen;
-    // Along the ray to the tangent plane: a slanted surface is no error where the pixel's centre is not met exactly.
-    const Eigen::Vector3f n(s->nx, s->ny, s->nz);
-    const float slope = std::max(std::abs(n.dot(q)) / q.z(), kMinSlope);
-    const float off = std::abs(n.dot(q - Eigen::Vector3f(s->x, s->y, s->z))) / slope;
-    fit.outliers += !(off < 3 * std::sqrt(level.variance[i]) + 0.01f);
+    const float tolerance = 3 * std::sqrt(level.variance[i]) + 0.01f;
+    fit.outliers += !(off_plane(*s, q) < tolerance) && !association.near_fits(s, q, tolerance);
   }
   return fit;
 }

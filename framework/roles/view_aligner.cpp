@@ -1,0 +1,141 @@
+#include "framework/roles/view_aligner.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace ppm {
+
+namespace {
+
+constexpr std::size_t kLevels = 3;
+constexpr std::array<int, kLevels> kCoarser{4, 2, 1};  // steps of the levels' grids, in steps of the finest
+
+/// A view's own place and a pose that is compared with it: farther apart the view is drawn again.
+constexpr double kNear_m = 0.02, kNear_rad = 0.02;
+
+bool near(const Pose& a, const Pose& b) {
+  const Pose between = a.inverse() * b;
+  return between.translation().norm() < kNear_m && rotation_angle(between) < kNear_rad;
+}
+
+/// Of the prior; a covariance without an inverse gets a floor of (1 um)^2.
+Matrix6 information(const MotionPrior& prior) {
+  return (prior.covariance + 1e-12 * Matrix6::Identity()).llt().solve(Matrix6::Identity());
+}
+
+}  // namespace
+
+void ViewAligner::declare(Params& params) {
+  params.add("view_stride", stride_).range(1, 64).doc("Draws each n-th pixel of each n-th row of the view to align to.");
+  params.add("step", step_fine_)
+      .range(1, 64)
+      .doc("The finest level compares each n-th pixel of each n-th row of the frame; two coarser ones each 2n-th and 4n-th.");
+  params.add("depth_jump", jump_)
+      .unit("m")
+      .range(0, 10)
+      .doc("Pixels where the measured depth departs from a plane through its neighbours by more are left out.");
+  params.add("distance", distance_)
+      .unit("m")
+      .range(0.001, 10)
+      .doc("Points farther than this from the surface that they fall onto are not aligned to it.");
+  params.add("normal_cosine", normal_cosine_)
+      .range(-1, 1)
+      .doc("Nor are points whose measured normal is turned away from the surface's by more (cosine).");
+  params.add("cauchy", cauchy_)
+      .range(0.1, 100)
+      .doc("Scale of the robust kernel of the wide manner, standard deviations.");
+  params.add("model_sigma", model_sigma_)
+      .unit("m")
+      .range(0, 1)
+      .doc("Standard deviation of the map's surface beside that of its texels.");
+  params.add("alpha", alpha_)
+      .range(0, 1)
+      .above(0)
+      .doc("Factor on the information of the pixels, which err together (their residuals' correlation says .008 to .1).");
+  params.add("outliers_most", outliers_most_)
+      .range(0, 1)
+      .doc(
+          "An alignment that leaves a larger share of the seen pixels farther than 3 sigma + 1 cm from the map does not "
+          "explain the frame.");
+  params.add("outliers_lost", outliers_lost_)
+      .range(0, 1)
+      .doc("One that leaves a larger share than this is no better than none.");
+  params.add("inliers_least", inliers_least_)
+      .range(0, 1)
+      .doc("Nor is one that explains a smaller share of the measured pixels.");
+}
+
+void ViewAligner::begin(const Frame& frame) {
+  camera_ = frame.camera;
+  measured_.build(frame, {kCoarser[0] * step_fine_, kCoarser[1] * step_fine_, kCoarser[2] * step_fine_}, jump_);
+}
+
+void ViewAligner::look(const ViewPredictor& predictor, const Map& map, const Pose& T_map_camera, AlignScratch& scratch,
+                       int worker) const {
+  scratch.drawn.reset(camera_, stride_, T_map_camera);
+  predictor.predict_all(map, scratch.drawn, worker);
+  scratch.view.build(scratch.drawn);
+}
+
+ViewAligner::Level ViewAligner::level(Manner manner, std::size_t k) const {
+  constexpr std::array<int, kLevels> kCloseSteps{6, 5, 5}, kWideSteps{10, 8, 6};
+  constexpr std::array<double, kLevels> kCloseWidth{2, 1, 1}, kWideWidth{5, 2.5, 1.2};
+  AlignmentGate gate{distance_, normal_cosine_, 0, model_sigma_};
+  if (manner == Manner::close) {
+    gate.distance_m *= kCloseWidth[k];
+    return {kCloseSteps[k], gate};
+  }
+  gate.distance_m *= kWideWidth[k];
+  gate.normal_cosine = k + 1 < kLevels ? 0.5 * normal_cosine_ : normal_cosine_;
+  gate.cauchy = cauchy_;
+  return {kWideSteps[k], gate};
+}
+
+void ViewAligner::descend(std::size_t k, const Level& how, const SurfaceView& view, const MotionPrior& prior,
+                          Alignment& at) const {
+  constexpr double kSmall = 1e-5;  // m and rad: what a further step would not be worth
+  const Matrix6 P = information(prior);
+  for (int step = 0; step < how.steps; ++step) {
+    const AlignmentSum sum = align_sum(measured_.levels[k], view, at.T_map_camera, how.gate);
+    at.information = alpha_ * sum.H + P;
+    at.likelihood = likelihood(sum);
+    const Twist x = at.information.ldlt().solve(alpha_ * sum.b - P * prior.offset(at.T_map_camera));
+    if (!x.allFinite()) return;
+    at.T_map_camera = at.T_map_camera * se3_exp(x);
+    if (x.norm() < kSmall) return;
+  }
+}
+
+double ViewAligner::likelihood(const AlignmentSum& sum) const {
+  // A seen point that is no inlier counts as one three standard deviations away; one that falls beside the map a little less.
+  const auto outliers = static_cast<double>(sum.seen - sum.inliers), unseen = static_cast<double>(sum.points - sum.seen);
+  return -0.5 * alpha_ * (sum.cost + 9.0 * outliers + 6.0 * unseen);
+}
+
+Alignment ViewAligner::align(const ViewPredictor& predictor, const Map& map, const MotionPrior& prior, const Pose& start,
+                             Manner manner, AlignScratch& scratch, int worker) const {
+  Alignment at;
+  at.T_map_camera = start;
+  look(predictor, map, start, scratch, worker);
+  for (std::size_t k = 0; k < kLevels; ++k) {
+    descend(k, level(manner, k), scratch.view, prior, at);
+    const bool again = manner == Manner::wide || k + 1 == kLevels;
+    if (again && !near(scratch.view.T_map_camera, at.T_map_camera)) {
+      look(predictor, map, at.T_map_camera, scratch, worker);
+      if (k + 1 == kLevels) descend(k, level(Manner::close, k), scratch.view, prior, at);
+    }
+  }
+  at.fit = alignment_fit(measured_.levels.back(), scratch.view, at.T_map_camera);
+  return at;
+}
+
+Alignment ViewAligner::align_coarsely(const SurfaceView& view, const MotionPrior& prior, const Pose& start) const {
+  Alignment at;
+  at.T_map_camera = start;
+  descend(0, level(Manner::wide, 0), view, prior, at);
+  at.fit = alignment_fit(measured_.levels.front(), view, at.T_map_camera);
+  at.likelihood = likelihood(align_sum(measured_.levels.front(), view, at.T_map_camera, level(Manner::wide, 1).gate));
+  return at;
+}
+
+}  // namespace ppm
