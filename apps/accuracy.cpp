@@ -15,6 +15,18 @@ bool can_see(const ViewPredictor& predictor, const Map& map) {
   return std::ranges::find(needs, fmt::format("map.{}", map.kind())) != needs.end();
 }
 
+std::string holdout_lines(const Holdout& h) {
+  const auto& s = h.score;
+  std::string text = fmt::format(
+      "  held out    coverage {:.4f}   median {:.2f} mm   truncated mean {:.2f} mm   within 1/2/5 cm {:.3f} {:.3f} {:.3f}   "
+      "({} frames, poses: {})\n",
+      s.coverage, s.median_mm, s.mean_trunc20cm_mm, s.within_1cm, s.within_2cm, s.within_5cm, h.frames, h.poses);
+  if (const auto& c = h.color)
+    text += fmt::format("               colour: median {:.3f}   RMS {:.3f} ({:.3f} with changes of exposure)\n", c->median,
+                        c->rms, c->rms_as_is);
+  return text;
+}
+
 }  // namespace
 
 Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& path, std::int64_t last_index,
@@ -29,9 +41,17 @@ Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& pa
   if (source->held_out().empty() || !predictor || !map || !can_see(*predictor, *map)) return result;
   if (from == HoldoutFrom::reference && reference.empty())
     throw ConfigError({}, "the source has no reference poses to predict held-out frames from; use --poses estimated");
-  const bool use_reference = from == HoldoutFrom::reference || (from == HoldoutFrom::automatic && !reference.empty());
-  const auto poses = use_reference ? reference_poses(path, reference) : estimated_poses(path);
-  result.holdout = score_holdout(*map, *source, sensor_models(graph), last_index, *predictor, poses, workers);
+  auto score = [&](const HoldoutPoses& poses) {
+    return score_holdout(*map, *source, sensor_models(graph), last_index, *predictor, poses, workers);
+  };
+  bool path_is_reference = false;
+  if (from != HoldoutFrom::estimated && !reference.empty()) {
+    const auto poses = reference_poses(path, reference);
+    path_is_reference = poses.name == kReferencePoses;
+    result.holdout = score(poses);
+  }
+  if (from == HoldoutFrom::estimated || (from == HoldoutFrom::both && !path_is_reference))
+    result.holdout_estimated = score(estimated_poses(path, source->follows_held_out()));
   return result;
 }
 
@@ -41,16 +61,8 @@ std::string accuracy_table(const Accuracy& accuracy) {
     text += fmt::format("  trajectory  ATE {:.4f} m   RPE {:.4f} m, {:.3f} deg   ({} poses)\n", t->ate_rmse_m,
                         t->rpe_trans_rmse_m, t->rpe_rot_rmse_deg, t->pairs);
   }
-  if (const auto& h = accuracy.holdout) {
-    const auto& s = h->score;
-    text += fmt::format(
-        "  held out    coverage {:.4f}   median {:.2f} mm   within 1/2/5 cm {:.3f} {:.3f} {:.3f}   ({} frames, poses: "
-        "{})\n",
-        s.coverage, s.median_mm, s.within_1cm, s.within_2cm, s.within_5cm, h->frames, h->poses);
-    if (const auto& c = h->color)
-      text += fmt::format("               colour: median {:.3f}   RMS {:.3f} ({:.3f} with changes of exposure)\n", c->median,
-                          c->rms, c->rms_as_is);
-  }
+  for (const auto* h : {&accuracy.holdout, &accuracy.holdout_estimated})
+    if (*h) text += holdout_lines(**h);
   return text;
 }
 

@@ -13,14 +13,16 @@ namespace ppm {
 /// How good path and map of a run are, as far as the source lets it be measured.
 struct Accuracy {
   std::optional<TrajectoryError> trajectory;  ///< where the source has at least 2 reference poses of the path's frames
-  std::optional<Holdout> holdout;             ///< where frames were held out and the graph has a view predictor
+  /// Where frames were held out and the graph has a view predictor: looked at from the reference poses, where the source
+  /// has them, and from the path's own, where these are not the reference.
+  std::optional<Holdout> holdout, holdout_estimated;
 };
 
-enum class HoldoutFrom { automatic, reference, estimated };  ///< automatic: reference, or estimated where there is none
+enum class HoldoutFrom { both, reference, estimated };
 
 /// path: poses of all frames of the run, the last of which is image `last_index` of the source. map: null where there
-/// is none. The graph's source must be open. Throws DataError; ConfigError where `from` asks for poses that the source
-/// does not have.
+/// is none. The graph's source must be open. Throws DataError; ConfigError where `from` asks for reference poses alone and
+/// the source has none.
 Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& path, std::int64_t last_index,
                           const Map* map, HoldoutFrom from, const Workers& workers);
 

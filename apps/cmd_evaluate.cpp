@@ -48,7 +48,7 @@ void add_trajectory(CLI::App& evaluate) {
 struct MapOptions {
   std::filesystem::path run;
   bool holdout = false, json = false;
-  HoldoutFrom poses = HoldoutFrom::automatic;
+  HoldoutFrom poses = HoldoutFrom::both;
   std::vector<std::filesystem::path> plugins;
   int threads = 0;
 };
@@ -66,7 +66,7 @@ void evaluate_map(const MapOptions& o) {
   const auto map = load_ppm(o.run / "map.ppm");
   source->open_for_evaluation();
   const Accuracy accuracy = measure_accuracy(graph, path, last_index, map.get(), o.poses, Workers(o.threads));
-  if (!accuracy.holdout)
+  if (!accuracy.holdout && !accuracy.holdout_estimated)
     throw ConfigError(Place{options.file.string()},
                       "the graph holds out no frame that has a pose, or cannot predict views of this map");
   print(accuracy, o.json);
@@ -83,8 +83,8 @@ void add_map(CLI::App& evaluate) {
   command->add_flag("--holdout", o->holdout, "Predict the depth of the frames that the source held out");
   command
       ->add_option("--poses", o->poses,
-                   "Where held-out frames are looked at from: 'reference' poses, or 'estimated' ones between their "
-                   "neighbours on the path; by default the reference where there is one")
+                   "Where held-out frames are looked at from: 'reference' poses, or 'estimated' ones, the path's own "
+                   "where it followed these frames, else between its neighbouring poses; by default both")
       ->transform(CLI::CheckedTransformer(std::map<std::string, HoldoutFrom>{{"reference", HoldoutFrom::reference},
                                                                              {"estimated", HoldoutFrom::estimated}}));
   command->add_option("--threads", o->threads, "Worker threads; 0 is as many as the machine has")

@@ -80,7 +80,7 @@ struct Run {
     const auto best = belief.best();
     const auto path = belief.trajectory[best].poses();
     if (path.empty()) return {};
-    return measure_accuracy(graph, path, path.back().frame, belief.map[best].get(), HoldoutFrom::automatic, workers);
+    return measure_accuracy(graph, path, path.back().frame, belief.map[best].get(), HoldoutFrom::both, workers);
   }
 
   void write(const RunSummary& summary, const Accuracy& measured) {

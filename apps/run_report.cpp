@@ -102,6 +102,7 @@ Json holdout_json(const Holdout& h) {
 void add_accuracy(Json& json, const Accuracy& accuracy) {
   if (accuracy.trajectory) json["trajectory"] = trajectory_json(*accuracy.trajectory);
   if (accuracy.holdout) json["holdout"] = holdout_json(*accuracy.holdout);
+  if (accuracy.holdout_estimated) json["holdout_estimated"] = holdout_json(*accuracy.holdout_estimated);
 }
 
 }  // namespace

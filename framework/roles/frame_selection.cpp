@@ -1,6 +1,8 @@
 #include "framework/roles/frame_selection.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <string_view>
 
 #include "framework/core/error.hpp"
@@ -24,6 +26,13 @@ std::string_view ordinal_ending(std::int64_t n) {
 }
 
 }  // namespace
+
+std::vector<std::int64_t> FrameSelection::followed() const {
+  std::vector<std::int64_t> all;
+  std::ranges::merge(mapped, std::ranges::subrange(std::ranges::upper_bound(held_out, mapped.front()), held_out.end()),
+                     std::back_inserter(all));
+  return all;
+}
 
 std::int64_t parse_holdout(const std::string& text) {
   if (text == "none") return 0;

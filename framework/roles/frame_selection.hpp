@@ -9,6 +9,8 @@ namespace ppm {
 struct FrameSelection {
   std::vector<std::int64_t> mapped;
   std::vector<std::int64_t> held_out;
+  /// Those that are mapped and, behind the first of them, those held out, in the order of the sequence.
+  std::vector<std::int64_t> followed() const;
 };
 
 /// N of "every Nth" (N >= 2, with its English ending: "every 10th", "every 3rd"), 0 for "none", -1 for anything else.

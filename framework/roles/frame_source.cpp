@@ -1,5 +1,6 @@
 #include "framework/roles/frame_source.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -40,6 +41,10 @@ void FrameSource::declare_selection() {
       .doc(
           "Images kept from the map, to test it on: 'none', or 'every 10th': those with index % 10 == 5 in "
           "first .. last, whatever the stride.");
+  params_.add_choice("held_out", held_out_, {{"left_out", HeldOut::left_out}, {"followed", HeldOut::followed}})
+      .doc(
+          "Whether the graph sees the held-out images: left_out keeps them back; followed gives those behind the first "
+          "mapped one in their place in the sequence, for the filter to find their poses, and no map learns from them.");
   params_.add("min_range", conditioning_.min_range_m).unit("m").range(0, kNoLimit).doc("Nearer depths are dropped.");
   params_.add("max_range", conditioning_.max_range_m).unit("m").above(0).doc("Farther depths are dropped.");
 }
@@ -87,7 +92,7 @@ void FrameSource::declare_correction() {
 void FrameSource::open(Context& context) {
   open_for_evaluation();
   for (const auto& remark : sequence_->remarks()) context.log().warning("{}: {}", sequence_->name(), remark);
-  context.expect_frames(static_cast<std::int64_t>(selection_.mapped.size()));
+  context.expect_frames(static_cast<std::int64_t>(given_.size()));
   next_ = 0;
   prefetch();
 }
@@ -95,18 +100,17 @@ void FrameSource::open(Context& context) {
 void FrameSource::open_for_evaluation() {
   if (!sequence_) sequence_ = open_sequence();
   selection_ = select_frames(sequence_->name(), sequence_->size(), first_, last_, stride_, parse_holdout(holdout_));
+  given_ = follows_held_out() ? selection_.followed() : selection_.mapped;
 }
 
 void FrameSource::prefetch() {
-  if (next_ == selection_.mapped.size()) return;
-  prefetched_ =
-      std::async(std::launch::async, [this, index = selection_.mapped[next_]] {
-        return load(index, pixel_stride_, conditioning_);
-      });
+  if (next_ == given_.size()) return;
+  prefetched_ = std::async(std::launch::async,
+                           [this, index = given_[next_]] { return load(index, pixel_stride_, conditioning_); });
 }
 
 void FrameSource::tick(Context& context) {
-  if (next_ == selection_.mapped.size()) {
+  if (next_ == given_.size()) {
     context.end_of_stream();
     return;
   }
@@ -123,7 +127,7 @@ void FrameSource::tick(Context& context) {
 
 void FrameSource::save(RecordWriter& out) const {
   out.add(sequence_->size());
-  out.add(static_cast<std::uint64_t>(selection_.mapped.size()));
+  out.add(static_cast<std::uint64_t>(given_.size()));
   out.add(static_cast<std::uint64_t>(next_));
   out.add(last_stamp_s_);
 }
@@ -131,9 +135,9 @@ void FrameSource::save(RecordWriter& out) const {
 void FrameSource::load(RecordReader& in) {
   const auto images = in.take<std::int64_t>();
   const auto selected = in.take<std::uint64_t>();
-  if (images != sequence_->size() || selected != selection_.mapped.size())
-    throw DataError(sequence_->name(), fmt::format("has changed: it had {} images, {} of them to be mapped, and has {} and {}",
-                                                   images, selected, sequence_->size(), selection_.mapped.size()));
+  if (images != sequence_->size() || selected != given_.size())
+    throw DataError(sequence_->name(), fmt::format("has changed: it had {} images, {} of them to be used, and has {} and {}",
+                                                   images, selected, sequence_->size(), given_.size()));
   next_ = in.take<std::uint64_t>();
   in.take(last_stamp_s_);
   prefetch();
@@ -152,7 +156,7 @@ Frame FrameSource::full_frame(std::int64_t index, const CameraCorrection& correc
 std::vector<StampedPose> FrameSource::reference(std::int64_t last) const {
   PPM_CHECK(sequence_, "the source is not open");
   std::vector<StampedPose> path;
-  for (auto index : selection_.mapped) {
+  for (auto index : given_) {
     if (index > last) break;
     if (const auto pose = checked_pose(index)) path.push_back({index, sequence_->stamp_s(index), *pose});
   }
@@ -172,6 +176,7 @@ Frame FrameSource::load(std::int64_t index, int stride, const FrameConditioning&
   Frame image = sequence_->read(index);
   PPM_CHECK(image.index == index, "asked for image {}, got {}", index, image.index);
   image.T_world_camera_ref = checked_pose(index);
+  image.held_out = std::ranges::binary_search(selection_.held_out, index);
   return conditioning.apply(image, stride);
 }
 

@@ -21,7 +21,7 @@ namespace ppm {
 /// wrong with an image is thrown by the tick whose image it is.
 class FrameSource : public Module {
  public:
-  Out<Frame> frame{this, "frame", "The next image that is not held out; each is later than the one before."};
+  Out<Frame> frame{this, "frame", "The next image; each is later than the one before. Held-out ones come where they are to be followed."};
 
   void open(Context& context) override;
   void tick(Context& context) override;
@@ -33,12 +33,14 @@ class FrameSource : public Module {
   const std::vector<std::int64_t>& held_out() const { return selection_.held_out; }
   /// Indices of the images to be mapped, ascending. Valid after open().
   const std::vector<std::int64_t>& selected() const { return selection_.mapped; }
+  /// Whether held-out images are given too, to be followed and not mapped.
+  bool follows_held_out() const { return held_out_ == HeldOut::followed; }
   /// A held-out image at the source's own resolution (no pixel stride), with range limits and sigma. Throws DataError.
   Frame full_frame(std::int64_t index) const;
   /// The same with another correction of the camera than the parameters'.
   Frame full_frame(std::int64_t index, const CameraCorrection& correction) const;
   const CameraCorrection& camera_correction() const { return conditioning_.correction; }
-  /// The reference path over the selected images, up to the image `last`, that have a pose; empty where the source has none.
+  /// The reference path over the images that are given, up to the image `last`, that have a pose; empty where the source has none.
   /// Valid after open(). Throws DataError where a pose is broken.
   std::vector<StampedPose> reference(std::int64_t last = std::numeric_limits<std::int64_t>::max()) const;
   /// Opens the sequence without a run, for evaluation.
@@ -50,6 +52,7 @@ class FrameSource : public Module {
   virtual std::unique_ptr<const FrameSequence> open_sequence() const = 0;
 
  private:
+  enum class HeldOut { left_out, followed };
   void declare_selection();
   void declare_noise();
   void declare_correction();
@@ -60,10 +63,12 @@ class FrameSource : public Module {
   std::int64_t first_ = 0, last_ = -1, stride_ = 1;
   int pixel_stride_ = 1;
   std::string holdout_ = "none";
+  HeldOut held_out_ = HeldOut::left_out;
   FrameConditioning conditioning_;
 
   FrameSelection selection_;
-  std::size_t next_ = 0;
+  std::vector<std::int64_t> given_;  // indices of the images that the graph gets, ascending
+  std::size_t next_ = 0;             // of given_
   double last_stamp_s_ = 0;
   std::unique_ptr<const FrameSequence> sequence_;
   std::future<Frame> prefetched_;  // below what load() reads: it is waited for first

@@ -16,6 +16,26 @@ struct Pair {
   Pose estimated, reference;
 };
 
+/// The first pose that is not earlier than a stamp, but for rounding.
+std::vector<StampedPose>::const_iterator first_from(const std::vector<StampedPose>& path, double stamp_s) {
+  return std::ranges::lower_bound(path, stamp_s - kSameStamp, {}, &StampedPose::stamp_s);
+}
+
+std::optional<Pose> pose_at(const std::vector<StampedPose>& path, double stamp_s) {
+  const auto at = first_from(path, stamp_s);
+  if (at == path.end() || at->stamp_s > stamp_s + kSameStamp) return std::nullopt;
+  return at->T_map_camera;
+}
+
+std::optional<Pose> pose_between(const std::vector<StampedPose>& path, double stamp_s) {
+  if (const auto exact = pose_at(path, stamp_s)) return exact;
+  const auto after = first_from(path, stamp_s);
+  if (after == path.begin() || after == path.end()) return std::nullopt;
+  const auto before = after - 1;
+  const double t = (stamp_s - before->stamp_s) / (after->stamp_s - before->stamp_s);
+  return interpolate(before->T_map_camera, after->T_map_camera, t);
+}
+
 std::vector<Pair> pairs_of(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference) {
   std::vector<Pair> pairs;
   auto at = reference.begin();
@@ -65,7 +85,7 @@ HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::ve
   const auto pairs = pairs_of(path, reference);
   if (pairs.empty()) throw DataError("the trajectory", "none of its poses has a reference pose");
   if (pairs.size() == path.size() && std::ranges::all_of(pairs, is_same))
-    return {"reference", [](const Frame& f) { return f.T_world_camera_ref; }};
+    return {kReferencePoses, [](const Frame& f) { return f.T_world_camera_ref; }};
   const Pose T_map_ref = align_poses(pairs);
   return {"reference, aligned", [T_map_ref](const Frame& f) -> std::optional<Pose> {
             if (!f.T_world_camera_ref) return std::nullopt;
@@ -73,16 +93,10 @@ HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::ve
           }};
 }
 
-HoldoutPoses estimated_poses(std::vector<StampedPose> path) {
-  return {"estimated", [path = std::move(path)](const Frame& f) -> std::optional<Pose> {
-            const auto after =
-                std::find_if(path.begin(), path.end(), [&](const auto& p) { return p.stamp_s >= f.stamp_s; });
-            if (after == path.end() || (after == path.begin() && after->stamp_s > f.stamp_s)) return std::nullopt;
-            if (after == path.begin()) return after->T_map_camera;
-            const auto before = after - 1;
-            const double t = (f.stamp_s - before->stamp_s) / (after->stamp_s - before->stamp_s);
-            return interpolate(before->T_map_camera, after->T_map_camera, t);
-          }};
+HoldoutPoses estimated_poses(std::vector<StampedPose> path, bool followed) {
+  const auto find = followed ? pose_at : pose_between;
+  return {followed ? "estimated" : "estimated, between neighbours",
+          [path = std::move(path), find](const Frame& f) { return find(path, f.stamp_s); }};
 }
 
 std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source,

@@ -15,9 +15,12 @@
 
 namespace ppm {
 
+/// Name of poses of a map that is in the reference's frame.
+constexpr const char* kReferencePoses = "reference";
+
 /// Where held-out frames are looked at from.
 struct HoldoutPoses {
-  std::string name;  ///< "reference", "reference, aligned" or "estimated"
+  std::string name;  ///< "reference", "reference, aligned", "estimated" or "estimated, between neighbours"
   /// T_map_camera of a frame; nothing where there is none for it.
   std::function<std::optional<Pose>(const Frame&)> T_map_camera;
 };
@@ -28,8 +31,9 @@ struct HoldoutPoses {
 /// translations. (The alignment of the trajectory error looks at positions alone, which leaves the rotation open on a
 /// straight or a short path.) Throws DataError where they have no frame in common.
 HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference);
-/// Interpolated by stamp between neighbouring poses of the path; none before its first and after its last pose.
-HoldoutPoses estimated_poses(std::vector<StampedPose> path);
+/// The path's own poses of the frames, where it followed them. Else interpolated by stamp between neighbouring poses of the
+/// path, which is worse than what the filter would have found; none before its first and after its last pose.
+HoldoutPoses estimated_poses(std::vector<StampedPose> path, bool followed);
 
 /// The pixels (x, y) with x % step == y % step == step/2 of a held-out frame are compared.
 constexpr int kHoldoutStep = 8;

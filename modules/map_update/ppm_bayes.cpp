@@ -12,7 +12,8 @@ using namespace ppm;
 /// frame   [rows*cols] depth and its sigma, NaN = no return; lateral_px; color where the map has it (DataError where
 ///         the frame has none)
 /// belief  needs a prediction of this frame's view (any stride: the update then works on the prediction's grid)
-/// In the frames between keyframes (`keyframe_every`) texels take offsets at most, see update_visible_texels().
+/// In the frames between keyframes (`keyframe_every`) texels take offsets at most, see update_visible_texels(). Frames that
+/// are held out, or come while the belief is lost, teach the map nothing and do not count.
 /// source  paper, section 4.3
 class PpmBayesUpdate final : public MapEditor {
  public:
@@ -30,25 +31,30 @@ class PpmBayesUpdate final : public MapEditor {
   }
 
   void before(Context& context) override {
+    learns_ = !frame->held_out && !belief->lost;
+    if (learns_) number_ = mapped_++;
     settings_.share();
     seen_.resize(context.threads());
     scratch_.resize(context.threads());
   }
 
   MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) override {
-    if (frame->held_out || belief->lost) return map;
+    if (!learns_) return map;
     const PredictionHandle view = belief->prediction[particle];
     PPM_CHECK(view, "particle {} has no prediction", particle);
     auto mesh = std::static_pointer_cast<const PpmMap>(std::move(map));
-    if (context.frame() % keyframe_every_ != 0 && !brings_new(*mesh, *view, seen_[worker])) {
+    if (number_ % keyframe_every_ != 0 && !brings_new(*mesh, *view, seen_[worker])) {
       if (between_ == Between::nothing) return mesh;
       return update_visible_texels(std::move(mesh), *frame, view->stride, view->T_map_camera, seen_[worker],
                                    settings_.texels);
     }
     const PredictionHandle whole = completed(view, completed_, context.workers());
-    return update_map(std::move(mesh), *frame, *whole, settings_, context.frame() / keyframe_every_, context.workers(),
+    return update_map(std::move(mesh), *frame, *whole, settings_, number_ / keyframe_every_, context.workers(),
                       scratch_[worker]);
   }
+
+  void save(RecordWriter& out) const override { out.add(mapped_); }
+  void load(RecordReader& in) override { in.take(mapped_); }
 
  private:
   enum class Between { texels, nothing };
@@ -237,7 +243,7 @@ class PpmBayesUpdate final : public MapEditor {
     params_.add("keyframe_every", keyframe_every_)
         .range(1, 1000000)
         .doc(
-            "Frames from one keyframe to the next. Keyframes do all that this module does; the frames between them "
+            "Mapped frames from one keyframe to the next. Keyframes do all that this module does; the frames between them "
             "what "
             "`between` says.");
     params_.add_choice("between", between_, {{"texels", Between::texels}, {"nothing", Between::nothing}})
@@ -254,6 +260,9 @@ class PpmBayesUpdate final : public MapEditor {
   static bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
 
   UpdateSettings settings_;
+  std::int64_t mapped_ = 0;  // frames that the maps have learnt from
+  std::int64_t number_ = 0;  // of this one among them
+  bool learns_ = true;       // from this one
   std::int64_t keyframe_every_ = 1;
   Between between_ = Between::texels;
   double keyframe_misses_ = 0.1;

@@ -24,10 +24,11 @@ class Run {
   MapHandle map(std::size_t particle = 0) { return harness_.belief().map[particle]; }
 
   /// The next frame, seen from there; further particles stand beside the first.
-  void step(const Pose& pose, int stride = 1) {
+  void step(const Pose& pose, int stride = 1, bool held_out = false) {
     const auto index = frames_++;
-    harness_.input<Frame>("frame",
-                          std::make_shared<const Frame>(scene_.frame(small_camera(), pose, kSigma, index, true)));
+    Frame frame = scene_.frame(small_camera(), pose, kSigma, index, true);
+    frame.held_out = held_out;
+    harness_.input<Frame>("frame", std::make_shared<const Frame>(std::move(frame)));
     auto& belief = harness_.belief();
     for (std::size_t k = 0; k < belief.size(); ++k) {
       belief.pose[k] = pose * Eigen::Translation3d(0.001 * static_cast<double>(k), 0, 0);
@@ -36,6 +37,8 @@ class Run {
     }
     harness_.tick();
   }
+  ParticleSet& belief() { return harness_.belief(); }
+  Harness& harness() { return harness_; }
   std::string digest() {
     Digest digest;
     for (const auto& map : harness_.belief().map) map->digest(digest);
@@ -117,6 +120,30 @@ TEST_CASE("texels read the same offsets between keyframes as in one, where the m
     for (std::size_t t = 0; t < a.table()[c].texels->size(); ++t, ++texels)
       same += t < b.table()[c].texels->size() && a.table()[c].texels->mean[t] == b.table()[c].texels->mean[t];
   CHECK(same > texels * 9 / 10);
+}
+
+TEST_CASE("a frame that teaches the map nothing, held out or while lost, does not take a keyframe's turn") {
+  const bool held_out = GENERATE(true, false);
+  CAPTURE(held_out);
+  Run run("{keyframe_every: 3, between: nothing}");
+  auto changes = [&](bool teaches) {
+    const auto before = run.map();
+    run.belief().lost = !teaches && !held_out;
+    run.step(look({0, 0, 0}), 1, !teaches && held_out);
+    return run.map() != before;
+  };
+  CHECK(changes(true));
+  CHECK_FALSE(changes(false));
+  CHECK_FALSE(changes(true));
+  CHECK_FALSE(changes(true));
+  CHECK_FALSE(changes(false));  // the third after the first
+  CHECK(changes(true));
+
+  const auto state = run.harness().save();
+  run.harness().load(state, 6);  // the count is part of it
+  CHECK_FALSE(changes(true));
+  CHECK_FALSE(changes(true));
+  CHECK(changes(true));
 }
 
 TEST_CASE("a frame in which the map shows nothing at many measured pixels is a keyframe") {

@@ -97,6 +97,27 @@ TEST_CASE("a source gives the selected images in order, then ends") {
   CHECK(held.source().selected().size() == 8);
 }
 
+TEST_CASE("held-out images that are followed come in their place, marked, from the first mapped one on") {
+  auto given = [](const std::string& params) {
+    ToyRun toy(params + ", held_out: followed}");
+    Indices frames;
+    while (toy.h.tick()) {
+      const auto frame = toy.h.output<ppm::Frame>("frame");
+      frames.push_back(frame->held_out ? -frame->index : frame->index);
+    }
+    Indices reference;
+    for (const auto& p : toy.source().reference()) reference.push_back(p.frame);
+    CHECK(reference.size() == frames.size());
+    return frames;
+  };
+  CHECK(given("{holdout: every 4th") == Indices{0, 1, -2, 3, 4, 5, -6, 7, 8, 9});
+  CHECK(given("{holdout: every 4th, first: 2") == Indices{3, 4, 5, -6, 7, 8, 9});
+  CHECK(given("{holdout: every 4th, stride: 5") == Indices{0, -2, 5, -6});
+  CHECK(given("{last: 2") == Indices{0, 1, 2});
+  ToyRun left_out("{holdout: every 4th}");
+  while (left_out.h.tick()) CHECK_FALSE(left_out.h.output<ppm::Frame>("frame")->held_out);
+}
+
 TEST_CASE("frames carry decimated images, held-out ones keep every pixel") {
   ToyRun toy("{pixel_stride: 2, holdout: every 4th, max_range: 1.5 m}");
   REQUIRE(toy.h.tick());

@@ -196,8 +196,8 @@ TEST_CASE("estimated poses are interpolated between neighbours, and not beyond t
     pose.rotate(Eigen::AngleAxisd(0.2 * i, Eigen::Vector3d::UnitZ()));
     path.push_back({i, double(i), pose});
   }
-  const auto poses = estimated_poses(path);
-  CHECK(poses.name == "estimated");
+  const auto poses = estimated_poses(path, false);
+  CHECK(poses.name == "estimated, between neighbours");
   auto at = [&](double stamp) {
     Frame f;
     f.stamp_s = stamp;
@@ -206,10 +206,30 @@ TEST_CASE("estimated poses are interpolated between neighbours, and not beyond t
   CHECK_FALSE(at(0.9));
   CHECK_FALSE(at(4.1));
   CHECK(at(1)->translation().x() == 1);
+  CHECK(at(1 + 4e-7)->translation().x() == 1);
   CHECK(at(4)->translation().x() == 4);
   CHECK(at(3.5)->translation().x() == Approx(3.5));
   CHECK(rotation_angle(*at(3.5)) == Approx(0.7));
-  CHECK_FALSE(estimated_poses({}).T_map_camera(Frame{}));
+  CHECK_FALSE(estimated_poses({}, false).T_map_camera(Frame{}));
+}
+
+TEST_CASE("estimated poses of frames that were followed are the path's own, and no others") {
+  std::vector<StampedPose> path;
+  for (int i : {1, 2, 4}) {
+    Pose pose = Pose::Identity();
+    pose.translation().x() = i;
+    path.push_back({i, 0.1 * i - 4e-7, pose});  // rounded, as from a file
+  }
+  const auto poses = estimated_poses(path, true);
+  CHECK(poses.name == "estimated");
+  auto at = [&](double stamp) {
+    Frame f;
+    f.stamp_s = stamp;
+    return poses.T_map_camera(f);
+  };
+  for (int i : {1, 2, 4}) CHECK(at(0.1 * i)->translation().x() == i);
+  CHECK_FALSE(at(0.3));
+  CHECK_FALSE(at(0.5));
 }
 
 TEST_CASE("only frames up to the last mapped one are scored, and only those with a pose") {
@@ -219,7 +239,7 @@ TEST_CASE("only frames up to the last mapped one are scored, and only those with
   CHECK(score_holdout(PlaneMap({}), source, {}, 11, predictor, poses, Workers(1))->frames == 2);  // 2 and 7
   CHECK_FALSE(score_holdout(PlaneMap({}), source, {}, 1, predictor, poses, Workers(1)));
 
-  const auto some = estimated_poses({source.reference()[5], source.reference()[9]});  // frames 6 and 11
+  const auto some = estimated_poses({source.reference()[5], source.reference()[9]}, false);  // frames 6 and 11
   CHECK(score_holdout(PlaneMap({}), source, {}, kAll, predictor, some, Workers(1))->frames == 1);
 
   const PlaneSource without(false);
@@ -231,7 +251,7 @@ TEST_CASE("only frames up to the last mapped one are scored, and only those with
 TEST_CASE("the score does not depend on the number of threads") {
   const PlaneSource source;
   PlanePredictor predictor;
-  const auto poses = estimated_poses(source.reference());
+  const auto poses = estimated_poses(source.reference(), false);
   const PlaneMap map({Eigen::Vector3d(0.01, 0, 1).normalized(), 3.01});
   const auto one = score_holdout(map, source, {}, kAll, predictor, poses, Workers(1));
   const auto four = score_holdout(map, source, {}, kAll, predictor, poses, Workers(4));
