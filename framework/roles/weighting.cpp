@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "framework/slam/tempering.hpp"
 #include "framework/slam/view_fit.hpp"
 
 namespace ppm {
@@ -29,6 +30,15 @@ Weighting::Weighting(int pixels) : belief(this, {{"prediction"}, {"fit"}, {}}), 
       .doc(
           "Where the grid of compared pixels starts: centred in every frame alike, or random for each frame (one grid "
           "for all particles).");
+  params_.add("ess_target", ess_target_)
+      .range(0, 1)
+      .doc(
+          "The log likelihood is scaled down in each frame until the effective sample size is at least this share of the "
+          "particles; 0 leaves it as it is. It is never scaled up.");
+  params_.add("temper_least", temper_least_)
+      .range(0, 1)
+      .above(0)
+      .doc("The smallest factor that `ess_target` may choose, so that frames always count.");
 }
 
 void Weighting::before(Context& context) {
@@ -71,17 +81,21 @@ void Weighting::tick(Context&, std::size_t particle, int worker) {
 }
 
 void Weighting::after(Context& context) {
-  std::vector<double> weight = belief->log_weight;
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  std::vector<double> likelihood(scores_.size());
   bool any_hit = false, any_finite = false;
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    weight[i] += scores_[i].log_likelihood;
-    if (!std::isfinite(weight[i])) weight[i] = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scores_.size(); ++i) {
+    const double l = scores_[i].log_likelihood;
+    likelihood[i] = std::isfinite(l) && std::isfinite(belief->log_weight[i]) ? l : kNone;
     any_hit |= scores_[i].hits > 0;
-    any_finite |= std::isfinite(weight[i]);
+    any_finite |= std::isfinite(likelihood[i]);
   }
   const bool degenerate = !any_hit || !any_finite;
+  double temper = 1;
   if (!degenerate) {
-    belief->log_weight = std::move(weight);
+    const double target = ess_target_ * static_cast<double>(likelihood.size());
+    if (ess_target_ > 0) temper = temper_for_ess(belief->log_weight, likelihood, target, temper_least_);
+    for (std::size_t i = 0; i < likelihood.size(); ++i) belief->log_weight[i] += temper * likelihood[i];
     belief->normalize();
   } else if (!warned_) {
     context.log().warning("{}: frame {}: {}; weights stay as they were (said once)", context.node(), context.frame(),
@@ -98,6 +112,7 @@ void Weighting::after(Context& context) {
   context.metric("outlier_share", static_cast<double>(fit.outliers));
   context.metric("miss_share", static_cast<double>(fit.misses));
   context.metric("degenerate", degenerate ? 1.0 : 0.0);
+  if (ess_target_ > 0) context.metric("temper", temper);
 }
 
 }  // namespace ppm

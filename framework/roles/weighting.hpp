@@ -18,11 +18,14 @@ namespace ppm {
 /// Where no particle's map shows anything at a compared pixel, or no particle's new weight is finite, the weights stay
 /// as they were: a warning says so once, and the metric `degenerate` is 1 in that frame. A particle whose likelihood is
 /// no number gets weight 0.
+/// With `ess_target` the likelihood is tempered by what this frame does to the weights, see temper_for_ess(): an exponent
+/// from `temper_least` to 1, beside any that the likelihood has of its own.
 ///
 /// belief   needs a prediction of the frame's own camera (any stride); changes log_weight, and says how far each view fits (see ViewFit)
 ///
 /// metrics  ess, entropy (nats), degenerate; of the best particle: residual (mean absolute, m), outlier_share (of
-///          hits), miss_share (of compared pixels)
+///          hits), miss_share (of compared pixels);
+///          where there is a target, temper: the exponent
 class Weighting : public ParticleModule {
  public:
   In<Frame> frame{this, "frame", "The measured image."};
@@ -56,6 +59,7 @@ class Weighting : public ParticleModule {
   const MeasuredPixels& measured(const Prediction& prediction);
 
   int pixels_;
+  double ess_target_ = 0, temper_least_ = 0.01;
   enum class Phase { centred, random } phase_ = Phase::centred;
   double phase_x_ = 0.5, phase_y_ = 0.5;  // of this frame, in steps
   std::mutex mutex_;  // guards measured_: made by the first tick of a frame, when the prediction's stride is known

@@ -237,3 +237,28 @@ TEST_CASE("metrics describe the best particle") {
   CHECK(metric(h, "outlier_share") == Approx(0.3));
   CHECK(metric(h, "residual") == Approx(0.3).epsilon(1e-3));
 }
+
+TEST_CASE("a target for the ESS tempers frames that say too much, within its bound, and no others") {
+  const Registry registry = builtin();
+  const auto weigh = [&](const std::string& params, double apart_m) {
+    Harness h(registry, "weighting.gaussian", params);
+    h.belief().init(10, kSomewhere, nullptr);
+    for (std::size_t i = 0; i < 10; ++i)
+      h.belief().prediction[i] = wall_view(kTiny, kSomewhere, 2 + apart_m * static_cast<double>(i), 0, 1e-4f);
+    h.input<Frame>("frame", wall_frame(kTiny, 2, 0.01f));
+    h.tick();
+    const auto& columns = h.context().metrics().columns();
+    const auto temper = columns.find("weighting.gaussian.temper");
+    return std::pair(h.belief().ess(), temper == columns.end() ? -1.0 : temper->second.back().value);
+  };
+  const auto [free_ess, none] = weigh("{}", 0.02);
+  CHECK(free_ess < 1.5);
+  CHECK(none == -1);
+  const auto [ess, temper] = weigh("{ess_target: 0.5}", 0.02);
+  CHECK(ess == Approx(5).epsilon(1e-6));
+  CHECK(temper < 1);
+  const auto [bounded_ess, bound] = weigh("{ess_target: 0.5, temper_least: 0.4}", 0.02);
+  CHECK(bound == 0.4);
+  CHECK(bounded_ess < 5);
+  CHECK(weigh("{ess_target: 0.5}", 1e-4).second == 1);
+}
