@@ -1,6 +1,7 @@
 #include "framework/roles/frame_source.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -171,9 +172,17 @@ std::optional<Pose> FrameSource::checked_pose(std::int64_t index) const {
   return orthonormalized(pose->matrix());
 }
 
+/// Of the image before that the graph got; for its first image, of the one before in the sequence.
+double FrameSource::stamp_before(std::int64_t index) const {
+  const auto given = std::ranges::lower_bound(given_, index);
+  if (given != given_.begin()) return sequence_->stamp_s(*std::prev(given));
+  return index > 0 ? sequence_->stamp_s(index - 1) : -kNoLimit;
+}
+
 Frame FrameSource::load(std::int64_t index, int stride, const FrameConditioning& conditioning) const {
   PPM_CHECK(sequence_, "the source is not open");
   Frame image = sequence_->read(index);
+  sequence_->add_motion(stamp_before(index), image);
   PPM_CHECK(image.index == index, "asked for image {}, got {}", index, image.index);
   image.T_world_camera_ref = checked_pose(index);
   image.held_out = std::ranges::binary_search(selection_.held_out, index);

@@ -57,6 +57,7 @@ class FrameSource : public Module {
   void declare_noise();
   void declare_correction();
   std::optional<Pose> checked_pose(std::int64_t index) const;
+  double stamp_before(std::int64_t index) const;
   Frame load(std::int64_t index, int stride, const FrameConditioning& conditioning) const;
   void prefetch();
 

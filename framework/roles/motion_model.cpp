@@ -32,10 +32,11 @@ std::optional<PathVelocity> last_velocity(const Trajectory& path) {
 void MotionModel::tick(Context& context) {
   const auto now = frame.get();
   auto& particles = *belief;
+  for (const auto& path : particles.trajectory) PPM_CHECK(!path.empty(), "the first frame must have begun the path");
+  if (particles.trajectory.front().last().frame == now->index) return begin(context);
   auto& priors = particles.column<MotionPrior>(kMotionPriorColumn);
   before(context);
   context.workers().for_each(particles.size(), [&](std::size_t i, int) {
-    PPM_CHECK(!particles.trajectory[i].empty(), "the first frame must have begun the path");
     priors[i] = expect(i, particles.trajectory[i], *now);
     const Pose drawn = priors[i].T_map_camera * se3_exp(draw(priors[i].covariance, context.rng("noise", i)));
     particles.extend(i, {now->index, now->stamp_s, drawn});

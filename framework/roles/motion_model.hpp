@@ -18,7 +18,8 @@ struct PathVelocity {
 std::optional<PathVelocity> last_velocity(const Trajectory& path);
 
 /// Base of motion models: each particle's new pose is drawn from a Gaussian around what is expected of it, which stays
-/// with the particle for nodes that look at the image before they choose (see MotionPrior).
+/// with the particle for nodes that look at the image before they choose (see MotionPrior). In a frame that the paths
+/// already hold, the one that the map began with, nothing moves.
 class MotionModel : public Module {
  public:
   In<Frame> frame{this, "frame", "Gives index and stamp of the new pose, and what was measured on the way."};
@@ -27,6 +28,8 @@ class MotionModel : public Module {
 
  protected:
   MotionModel() = default;
+  /// Instead of a move, in the frame that the paths began with, where the node runs in it: what the model must know of it.
+  virtual void begin(Context&) {}
   /// Before the particles are moved, from one thread: for work shared by all, and for the model's own columns.
   virtual void before(Context&) {}
   /// What is expected of a particle whose path, not empty, ends with the frame before. Called from any worker; may change

@@ -19,6 +19,9 @@ class FrameSequence {
   /// Reads one image at full resolution: index, stamp, camera, depth, confidence, colour, reference pose. sigma may stay empty:
   /// it is then filled from the noise parameters of FrameSource, as lateral_px always is. Throws DataError naming file and frame.
   virtual Frame read(std::int64_t index) const = 0;
+  /// Sets what was measured on the way to an image that read() gave: imu, the samples later than after_s up to the image's
+  /// stamp, and T_odom_base. after_s: stamp of the image before, of those that are used. Throws DataError.
+  virtual void add_motion(double /*after_s*/, Frame& /*image*/) const {}
   virtual double stamp_s(std::int64_t index) const = 0;
   /// The pose that read() would give, without reading the image.
   virtual std::optional<Pose> reference_pose(std::int64_t index) const = 0;

@@ -47,6 +47,10 @@ class ToySequence final : public ppm::FrameSequence {
     f.depth.assign(8, 1.0f + 0.1f * static_cast<float>(i));
     return f;
   }
+  /// One sample, which says since when.
+  void add_motion(double after_s, ppm::Frame& image) const override {
+    image.imu = {{image.stamp_s, Eigen::Vector3d::Constant(after_s), Eigen::Vector3d::Zero()}};
+  }
 
  private:
   Toy toy_;
@@ -180,4 +184,17 @@ TEST_CASE("one image is read ahead, and a source may go while it is being read")
     REQUIRE(toy.h.tick());
   }
   CHECK(reads == 3);
+}
+
+TEST_CASE("what was measured on the way to an image begins at the one that the graph got before") {
+  ToyRun run("{first: 2, stride: 3}");
+  std::vector<double> since;
+  while (run.h.tick()) since.push_back(run.h.output<ppm::Frame>("frame")->imu.at(0).gyro.x());
+  REQUIRE(since.size() == 3);
+  CHECK(since[0] == Approx(0.1));  // of the image before in the sequence
+  CHECK(since[1] == Approx(0.2));
+  CHECK(since[2] == Approx(0.5));
+  ToyRun whole("{}");
+  whole.h.tick();
+  CHECK(whole.h.output<ppm::Frame>("frame")->imu.at(0).gyro.x() == -std::numeric_limits<double>::infinity());
 }
