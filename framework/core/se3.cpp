@@ -3,15 +3,11 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "framework/core/so3.hpp"
+
 namespace ppm {
 
 namespace {
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& w) {
-  Eigen::Matrix3d W;
-  W << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  return W;
-}
 
 // Below this angle (rad) the closed forms lose digits and the series to theta^6 have all of them.
 constexpr double kSeriesBelow = 0.1;
