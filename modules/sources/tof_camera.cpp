@@ -1,8 +1,8 @@
 #include "modules/sources/tof_camera.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <complex>
 #include <limits>
 
 #include "framework/core/rng.hpp"
@@ -10,13 +10,9 @@
 namespace ppm {
 namespace {
 
-constexpr double kLightSpeed = 299792458;
-constexpr double kEdge_m = 0.02;  // a jump in range that makes an edge
-constexpr double kPhasePerMetre = 4 * EIGEN_PI * TofCamera::kModulation_Hz / kLightSpeed;
-
 /// What a ray brings back.
 struct Echo {
-  double range_m = 0, amplitude = 0, cosine = 0;
+  TofEcho light;
   SceneHit hit;
   Eigen::Vector3f color = Eigen::Vector3f::Zero();  // linear light
 };
@@ -30,9 +26,8 @@ Eigen::Vector3f lit(const Eigen::Vector3f& albedo, const Eigen::Vector3d& p, con
 Echo echo(const AnalyticScene& scene, const SceneHit& hit, const Eigen::Vector3d& origin,
           const Eigen::Vector3d& direction, bool color) {
   if (hit.solid == SceneHit::kNone) return {};
-  Echo e{hit.range_m, 0, -hit.normal.dot(direction), hit, {}};
   const Solid& solid = scene.solids()[hit.solid];
-  e.amplitude = solid.albedo.mean() * e.cosine / (hit.range_m * hit.range_m);
+  Echo e{TofSignal::echo(solid.albedo.mean(), -hit.normal.dot(direction), hit.range_m), hit, {}};
   const Eigen::Vector3d p = origin + hit.range_m * direction;
   if (color) e.color = lit(albedo_at(solid, p), p, hit.normal);
   return e;
@@ -74,7 +69,7 @@ class Exposure {
     around(x, y, [&](int u, int v) {
       const SceneHit& beside = at(u, v).hit;
       if (!edge && beside.solid != hit.solid)
-        edge = std::abs(plane / hit.normal.dot(ray(u, v)) - beside.range_m) > kEdge_m;
+        edge = std::abs(plane / hit.normal.dot(ray(u, v)) - beside.range_m) > TofSignal::kEdge_m;
     });
     return edge;
   }
@@ -91,22 +86,15 @@ class Exposure {
   Echo mixed(int x, int y, const Echo& centre) const {
     constexpr int kSamples = 9;
     const auto seen = seen_around(x, y);
-    std::complex<double> phasor = 0;
-    double amplitudes = 0;
-    Echo sum{0, 0, 0, centre.hit, Eigen::Vector3f::Zero()};
+    std::array<TofEcho, kSamples> parts;
+    Echo sum{{}, centre.hit, Eigen::Vector3f::Zero()};
     for (int k = 0; k < kSamples; ++k) {
       const Eigen::Vector3d d = ray(x + (k % 3 - 1) / 3.0, y + (k / 3 - 1) / 3.0);
       const Echo e = echo(scene_, scene_.cast_among(seen, T_.translation(), d), T_.translation(), d, tof_.color);
-      phasor += std::polar(e.amplitude, e.range_m * kPhasePerMetre);
-      amplitudes += e.amplitude;
-      sum.cosine += e.amplitude * e.cosine;
+      parts[static_cast<std::size_t>(k)] = e.light;
       sum.color += e.color / kSamples;
     }
-    if (amplitudes == 0) return sum;
-    sum.cosine /= amplitudes;
-    sum.amplitude = std::abs(phasor) / kSamples;
-    sum.range_m = std::arg(phasor) / kPhasePerMetre;
-    if (sum.range_m < 0) sum.range_m += 2 * EIGEN_PI / kPhasePerMetre;
+    sum.light = TofSignal::mixed(parts);
     return sum;
   }
 
@@ -124,10 +112,6 @@ void append_srgb(const Eigen::Vector3f& linear, std::vector<std::uint8_t>& out) 
 
 }  // namespace
 
-double TofCamera::range_sigma(double amplitude) const {
-  return std::max(1e-4, noise * std::hypot(kFloor_m, kSlope_m / amplitude));
-}
-
 void TofCamera::render(const AnalyticScene& scene, const Pose& T_world_camera, std::uint64_t seed, Frame& frame) const {
   const Exposure exposure(*this, scene, T_world_camera);
   const auto n = static_cast<std::size_t>(camera.pixels());
@@ -140,14 +124,13 @@ void TofCamera::render(const AnalyticScene& scene, const Pose& T_world_camera, s
     Rng rng(seed, static_cast<std::uint32_t>(frame.index), static_cast<std::uint32_t>(y), purpose);
     for (int x = 0; x < camera.cols; ++x) {
       const Echo e = exposure.pixel(x, y);
-      const double range_noise = rng.normal(),
-                   amplitude_noise = rng.normal();  // drawn for every pixel: the order is fixed
       if (color) append_srgb(e.color, frame.color);
-      if (e.cosine < kLeastCosine || e.amplitude * (1 + 0.1 * noise * amplitude_noise) < kLeastAmplitude) continue;
-      const double sigma = range_sigma(e.amplitude), z_per_range = 1 / camera.ray(x, y).norm();
+      const auto reading = read(e.light, rng);
+      if (!reading) continue;
+      const double z_per_range = 1 / camera.ray(x, y).norm();
       const auto i = static_cast<std::size_t>(y * camera.cols + x);
-      frame.depth[i] = static_cast<float>((e.range_m + (noise > 0 ? sigma * range_noise : 0.0)) * z_per_range);
-      frame.sigma[i] = static_cast<float>(sigma * z_per_range);
+      frame.depth[i] = static_cast<float>(reading->range_m * z_per_range);
+      frame.sigma[i] = static_cast<float>(reading->sigma_m * z_per_range);
     }
   }
 }

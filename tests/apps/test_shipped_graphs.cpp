@@ -62,6 +62,14 @@ TEST_CASE("the kitchen's graphs run a few frames") {
   runs_as_it_did({"kitchen_slam_paper.yaml", {"--set", path, "--set", "init.particles=20"}, 0.1, 0.7, 100});
 }
 
+TEST_CASE("the simulated house's graphs run a few frames") {
+  const auto data = data_path("house.ply");
+  if (!data) return;
+  const std::string file = "camera.file=" + data->string();
+  runs_as_it_did({"house_mapping.yaml", {"--set", file}, 1e-6, 0.9, 20});
+  runs_as_it_did({"house_slam.yaml", {"--set", file, "--set", "init.particles=20"}, 0.06, 0.9, 40});
+}
+
 TEST_CASE("sr4000_still.yaml maps a place from four images") {
   const auto data = data_path("sr4000");
   if (!data) return;

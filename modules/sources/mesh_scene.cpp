@@ -1,0 +1,135 @@
+#include <cmath>
+
+#include "framework/graph/registry.hpp"
+#include "framework/roles/frame_source.hpp"
+#include "framework/slam/tum_trajectory.hpp"
+#include "modules/sources/data_path.hpp"
+#include "modules/sources/house_plans.hpp"
+#include "modules/sources/mesh_sequence.hpp"
+#include "modules/sources/waypoint_file.hpp"
+
+namespace ppm {
+namespace {
+
+/// The cameras that have a name.
+enum class Model { tof176, sr4000, kinect320 };
+enum class NoiseChoice { camera, exact, kinect, tof };
+
+Camera camera_with(int cols, int rows, double focal_px) {
+  return {cols, rows, focal_px, focal_px, (cols - 1) / 2.0, (rows - 1) / 2.0};
+}
+
+Camera camera_of(Model model) {
+  if (model == Model::kinect320) return camera_with(320, 240, 292.5);
+  return camera_with(176, 144, model == Model::sr4000 ? 220 : 128);
+}
+
+/// A range camera that is moved through a mesh from a file, by default a furnished house. World frame: the mesh's own, z up.
+/// frame   depth with the chosen noise; sigma is the true one for time of flight, else from the noise parameters; exact
+///         reference poses
+/// throws  DataError naming file and line or byte: mesh, trajectory or waypoints missing or malformed
+/// source  noise models: see MeshCamera
+class MeshScene final : public FrameSource {
+ public:
+  MeshScene() {
+    params_.add("file", file_).doc(
+        "The mesh, a PLY file in metres with z up. A leading ${PPM_DATA} is replaced by that environment variable, or by "
+        "../shared/data.");
+    declare_path();
+    declare_camera();
+  }
+
+ private:
+  void declare_path() {
+    params_.add_choice("plan", plan_, {{"loop", HousePlan::loop}})
+        .doc("The way through house.ply; not used where waypoints or a trajectory are given.");
+    params_.add("waypoints", waypoints_)
+        .doc("A file of waypoints for any mesh: lines 'x y z yaw pitch [seconds]', m and degrees, or 'jump'.");
+    params_.add("trajectory", trajectory_)
+        .check([this] {
+          return waypoints_.empty() || trajectory_.empty() ? std::string() : "give waypoints or a trajectory, not both";
+        })
+        .doc("A TUM file of camera poses, each of which makes a frame; rate, speed, turning and sway do not count then.");
+    params_.add("frames", frames_).range(-1, 1e6).doc("Length of the sequence at most; -1: the whole way.");
+    params_.add("rate", rate_).unit("Hz").above(0).doc("Frames per second.");
+    params_.add("speed", gait_.speed).unit("m/s").above(0).doc("How fast the camera is carried between waypoints.");
+    params_.add("turning", gait_.turning).unit("rad/s").above(0).doc("How fast it turns at most between waypoints.");
+    params_.add("sway", gait_.sway)
+        .range(0, 10)
+        .doc("Scale of the movement of the hand, a sum of swings of 1 cm and 1 degree, 0.2 to 1 a second; 0: none.");
+  }
+  void declare_camera() {
+    params_
+        .add_choice("camera", model_,
+                    {{"tof176", Model::tof176}, {"sr4000", Model::sr4000}, {"kinect320", Model::kinect320}})
+        .doc(
+            "tof176: time of flight, 176x144 pixels, 69 x 59 degrees (SR4000 with its wide lens); sr4000: the same with "
+            "its standard lens, 44 x 36 degrees; kinect320: structured light, 320x240 pixels, 57 x 45 degrees.");
+    params_.add("cols", cols_).range(0, 4096).doc("Width of the image in pixels; 0: the camera's.");
+    params_.add("rows", rows_).range(0, 4096).doc("Height of the image in pixels; 0: the camera's.");
+    params_.add("fov", fov_).unit("rad").range(0, 3).doc("Horizontal field of view; 0: the camera's.");
+    params_
+        .add_choice("noise", noise_,
+                    {{"camera", NoiseChoice::camera},
+                     {"exact", NoiseChoice::exact},
+                     {"kinect", NoiseChoice::kinect},
+                     {"tof", NoiseChoice::tof}})
+        .doc(
+            "exact: what each pixel's centre sees; kinect: axial and lateral noise of structured light; tof: noise by "
+            "amplitude, flying pixels, drop-outs; camera: the one of the camera.");
+    params_.add("reflectance", optics_.reflectance).range(0.01, 1).doc("Share of light that surfaces send back, for tof.");
+    params_.add("disparity_step", optics_.disparity_step)
+        .unit("px")
+        .range(0, 1)
+        .doc("Steps of the disparity for kinect, whose own are 1/8 px; 0: none.");
+    params_.add("seed", seed_).range(0, 1e15).doc("Seed of the noise; it does not depend on the run's seed.");
+  }
+
+  std::unique_ptr<const FrameSequence> open_sequence() const override {
+    const auto file = expand_data_path(file_);
+    return std::make_unique<MeshSequence>(file.string(), read_ply_mesh(file), optics(),
+                                          static_cast<std::uint64_t>(seed_), poses());
+  }
+  std::vector<StampedPose> poses() const {
+    if (!trajectory_.empty()) {
+      auto path = read_tum(expand_data_path(trajectory_));
+      if (frames_ >= 0 && static_cast<std::size_t>(frames_) < path.size()) path.resize(static_cast<std::size_t>(frames_));
+      return path;
+    }
+    const auto waypoints = waypoints_.empty() ? house_plan(plan_) : read_waypoints(expand_data_path(waypoints_));
+    return sampled(CameraPath(waypoints, gait_), rate_, frames_);
+  }
+  MeshCamera optics() const {
+    MeshCamera out = optics_;
+    const Camera named = camera_of(model_);
+    const int cols = cols_ ? cols_ : named.cols, rows = rows_ ? rows_ : named.rows;
+    const double focal = fov_ > 0 ? cols / 2.0 / std::tan(fov_ / 2) : named.fx * cols / named.cols;
+    out.camera = camera_with(cols, rows, focal);
+    out.noise = noise();
+    return out;
+  }
+  MeshCamera::Noise noise() const {
+    if (noise_ == NoiseChoice::exact) return MeshCamera::Noise::exact;
+    const bool kinect = noise_ == NoiseChoice::kinect || (noise_ == NoiseChoice::camera && model_ == Model::kinect320);
+    return kinect ? MeshCamera::Noise::kinect : MeshCamera::Noise::tof;
+  }
+
+  std::filesystem::path file_ = "${PPM_DATA}/house.ply", waypoints_, trajectory_;
+  HousePlan plan_ = HousePlan::loop;
+  Gait gait_;
+  double rate_ = 10, fov_ = 0;
+  std::int64_t frames_ = -1, seed_ = 1;
+  int cols_ = 0, rows_ = 0;
+  Model model_ = Model::tof176;
+  NoiseChoice noise_ = NoiseChoice::camera;
+  MeshCamera optics_;
+};
+
+}  // namespace
+}  // namespace ppm
+
+PPM_MODULES(r) {
+  r.add<ppm::MeshScene>("source.mesh_scene",
+                        "Makes depth images of any mesh, as a time-of-flight camera or a Kinect moved through it would see it.",
+                        "Noise models: Lange & Seitz, IEEE JQE 2001; Nguyen, Izadi, Lovell, 3DIMPVT 2012");
+}
