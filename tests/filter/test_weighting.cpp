@@ -254,7 +254,7 @@ TEST_CASE("a target for the ESS tempers frames that say too much, within its bou
   const auto [free_ess, none] = weigh("{}", 0.02);
   CHECK(free_ess < 1.5);
   CHECK(none == -1);
-  const auto [ess, temper] = weigh("{ess_target: 0.5}", 0.02);
+  const auto [ess, temper] = weigh("{ess_target: 0.5, temper_least: 0.001}", 0.02);
   CHECK(ess == Approx(5).epsilon(1e-6));
   CHECK(temper < 1);
   const auto [bounded_ess, bound] = weigh("{ess_target: 0.5, temper_least: 0.4}", 0.02);
