@@ -11,11 +11,12 @@
 namespace ppm {
 namespace {
 
-enum class Start { reference, identity, pose };
+enum class Start { reference, identity, pose, unknown };
 
 /// Makes the belief from a saved map: particles with equal weights around one pose, sharing the map; the first frame is
 /// on every path. For localisation in a map that is there, and for mapping on. Runs in the first frame
-/// (`when: {until_frame: 0}`); it starts over wherever it runs.
+/// (`when: {until_frame: 0}`); it starts over wherever it runs. Where the start is unknown the particles stand at the map's
+/// origin and the belief is lost: a recovery.* node finds the place, and until then no map learns.
 /// throws  DataError where the file is no sound map, or the start is the reference and the frame has none
 class PpmFile final : public Module {
  public:
@@ -30,10 +31,13 @@ class PpmFile final : public Module {
             "current directory; ${PPM_DATA} may stand first.");
     params_.add("particles", particles_).range(1, 1'000'000).doc("Number of particles.");
     params_.add_choice("start", start_,
-                       {{"reference", Start::reference}, {"identity", Start::identity}, {"pose", Start::pose}})
+                       {{"reference", Start::reference},
+                        {"identity", Start::identity},
+                        {"pose", Start::pose},
+                        {"unknown", Start::unknown}})
         .doc(
             "The camera's first pose in the map frame: the frame's reference pose (for a map in the reference's frame), "
-            "identity, or the one that `pose` gives.");
+            "identity, the one that `pose` gives, or unknown (a recovery.* node must find it).");
     params_.add("pose", pose_)
         .check([this] {
           Pose T_map_camera;
@@ -60,8 +64,9 @@ class PpmFile final : public Module {
     particles.init(static_cast<std::size_t>(particles_), T_map_camera, map_);
     if (start_ != Start::reference) {
       particles.T_map_world.reset();
-      if (reference) particles.T_map_world = T_map_camera * reference->inverse();
+      if (reference && start_ != Start::unknown) particles.T_map_world = T_map_camera * reference->inverse();
     }
+    particles.lost = start_ == Start::unknown;
     for (std::size_t i = 0; i < particles.size(); ++i)
       particles.extend(i, {first->index, first->stamp_s, T_map_camera * spread_.draw(context.rng("spread", i))});
   }

@@ -91,16 +91,19 @@ TEST_CASE("a camera is localised in a saved map, which stays as it is") {
   for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(a[k] - b[k]) < 0.08);
 }
 
-TEST_CASE("kitchen_localize.yaml places images in the map of kitchen_mapping.yaml") {
+TEST_CASE("kitchen_localize.yaml finds images in the map of kitchen_mapping.yaml, from nowhere") {
   const auto data = data_path("kitchen");
   if (!data) return;
   TempFolder folder;
   const std::string camera = "camera.path=" + data->string(), map = (folder / "map").string();
   const std::string configs = std::string(PPM_SOURCE_DIR) + "/configs/";
   REQUIRE(ppm_command({"run", configs + "kitchen_mapping.yaml", "--set", camera, "--frames", "12", "--out", map})->code == 0);
-  const auto run = ppm_command({"run", configs + "kitchen_localize.yaml", "--set", camera, "--set", "init.path=" + map, "--frames",
-                                "10", "--out", (folder / "path").string()});
+  const auto run = ppm_command({"run", configs + "kitchen_localize.yaml", "--set", camera, "--set", "camera.first=3", "--set",
+                                "init.path=" + map, "--set", "recover.path=" + map, "--frames", "10", "--out",
+                                (folder / "path").string()});
   INFO(run->err);
   REQUIRE(run->code == 0);
+  CHECK(run->err.find("place in the map is not known") != std::string::npos);
+  CHECK(run->err.find("found, after 3 frames") != std::string::npos);
   CHECK(read_json(folder / "path/run.json")["trajectory"]["ate_rmse_m"].get<double>() < 0.03);
 }

@@ -14,7 +14,7 @@ using namespace ppm;
 namespace {
 
 const std::set<std::string> kCategories{"source",    "sensor",     "preprocess", "map",        "motion",   "prediction",
-                                        "weighting", "resampling", "map_update", "refinement", "simplify", "sink"};
+                                        "weighting", "recovery",  "resampling", "map_update", "refinement", "simplify",   "sink"};
 const std::set<std::string> kFacets{"belief", "prediction", "prediction.elements", "fit", "motion.prior", "map.ppm", "map.vdb", "map.*"};
 const std::regex kLowerSnake("[a-z][a-z0-9_]*");
 

@@ -74,6 +74,18 @@ TEST_CASE("map.ppm_file starts at the reference or at a given pose, and tells wh
   CHECK((*at_pose->belief().T_map_world * some_pose()).isApprox(pose));
 }
 
+TEST_CASE("map.ppm_file can start lost: nobody knows where the reference lies") {
+  const Saved saved;
+  auto unknown = saved.start("particles: 2, start: unknown", some_pose());
+  unknown->tick();
+  CHECK(unknown->belief().lost);
+  CHECK_FALSE(unknown->belief().T_map_world);
+  CHECK(unknown->belief().trajectory[1].last().T_map_camera.matrix() == Eigen::Matrix4d::Identity());
+  auto known = saved.start("particles: 2", some_pose());
+  known->tick();
+  CHECK_FALSE(known->belief().lost);
+}
+
 TEST_CASE("map.ppm_file spreads the first poses, the same for the same seed") {
   const Saved saved;
   auto spread = [&] {
