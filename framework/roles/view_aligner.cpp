@@ -52,6 +52,9 @@ void ViewAligner::declare(Params& params) {
       .range(0, 1)
       .above(0)
       .doc("Factor on the information of the pixels, which err together (their residuals' correlation says .008 to .1).");
+}
+
+void ViewAligner::declare_limits(Params& params) {
   params.add("outliers_most", outliers_most_)
       .range(0, 1)
       .doc(

@@ -34,7 +34,10 @@ class ViewAligner {
  public:
   enum class Manner { close, wide };
 
+  /// How frames are aligned.
   void declare(Params& params);
+  /// What explains() and usable() ask for.
+  void declare_limits(Params& params);
   /// Once a frame: the points of the frame, shared by all alignments.
   void begin(const Frame& frame);
   /// Draws what the map shows from a pose into scratch.view.

@@ -58,6 +58,7 @@ class AlignedMotion final : public Module {
 
   AlignedMotion() {
     aligner_.declare(params_);
+    aligner_.declare_limits(params_);
     params_.add_choice("draw", draw_, {{"sample", Draw::sample}, {"optimum", Draw::optimum}})
         .doc("The new pose: sample draws it from the Gaussian around the optimum, optimum takes the optimum.");
     params_.add("starts", starts_)

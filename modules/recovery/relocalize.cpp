@@ -77,6 +77,7 @@ class Relocalize final : public Module {
     const auto phase = watch_.phase();
     if (phase == LossWatch::Phase::lost && before == LossWatch::Phase::tracked) declare_loss(context);
     if (phase == LossWatch::Phase::lost) search(context);
+    if (phase == LossWatch::Phase::returning && before == LossWatch::Phase::lost) rest(context);
     if (phase == LossWatch::Phase::tracked && before == LossWatch::Phase::returning) declare_found(context);
     if (watch_.sure()) remember(context);
     belief->lost = said_lost_ = watch_.phase() != LossWatch::Phase::tracked ||
@@ -183,6 +184,11 @@ class Relocalize final : public Module {
     const PoseNoise noise = search_.spread(age);
     for (std::size_t i = 0; i < particles.size(); ++i)
       stand(i, anchors()[i] * noise.draw(context.rng("spread", i)), context);
+  }
+
+  /// A proposal that looks found the way by itself: what it came from is no velocity.
+  void rest(Context& context) {
+    for (std::size_t i = 0; i < belief->size(); ++i) stand(i, belief->pose[i], context);
   }
 
   /// Puts a particle at a pose, at rest: motion models read velocity and acceleration off the last entries of its path. Entries

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "framework/config/config.hpp"
 #include "framework/graph/executor.hpp"
 #include "framework/roles/frame_source.hpp"
+#include "framework/slam/belief_digest.hpp"
 #include "modules/builtin.hpp"
 #include "modules/sources/room_path.hpp"
 #include "modules/sources/room_scene.hpp"
@@ -59,13 +61,15 @@ class CarriedCamera final : public FrameSource {
 /// A run of a graph that may have a `source.carried`, frame by frame.
 class CarriedRun {
  public:
-  explicit CarriedRun(const std::string& yaml, std::filesystem::path out = {})
+  explicit CarriedRun(const std::string& yaml, int threads = 1)
       : graph_(Graph::build(parse_yaml(yaml, "carried.yaml"), registry())),
-        context_(workers_, log_, metrics_, graph_.seed(), std::move(out)),
+        workers_(threads),
+        context_(workers_, log_, metrics_, graph_.seed(), {}),
         executor_(graph_, context_) {}
   /// Goes on until so many frames are done.
   void run_to(std::int64_t frames) { executor_.run(frames, stop_); }
   const ParticleSet& belief() const { return executor_.belief(); }
+  std::string digest() const { return belief_digest(belief(), workers_); }
   Executor& executor() { return executor_; }
   /// The values of a metric, a frame each.
   std::vector<double> metric(const std::string& name) const {
@@ -85,7 +89,7 @@ class CarriedRun {
 
  private:
   Graph graph_;
-  Workers workers_{2};
+  Workers workers_;
   Log log_{LogLevel::error};
   Metrics metrics_;
   Context context_;
