@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "framework/graph/registry.hpp"
@@ -6,6 +7,8 @@
 #include "modules/sources/data_path.hpp"
 #include "modules/sources/house_plans.hpp"
 #include "modules/sources/mesh_sequence.hpp"
+#include "modules/sources/simulated_imu.hpp"
+#include "modules/sources/simulated_odometry.hpp"
 #include "modules/sources/waypoint_file.hpp"
 
 namespace ppm {
@@ -25,8 +28,9 @@ Camera camera_of(Model model) {
 }
 
 /// A range camera that is moved through a mesh from a file, by default a furnished house. World frame: the mesh's own, z up.
+/// The moving body (base) is the camera: x right, y down, z forward.
 /// frame   depth with the chosen noise; sigma is the true one for time of flight, else from the noise parameters; exact
-///         reference poses
+///         reference poses; if asked for, imu (SimulatedImu) and T_odom_base (SimulatedOdometry)
 /// throws  DataError naming file and line or byte: mesh, trajectory or waypoints missing or malformed
 /// source  noise models: see MeshCamera
 class MeshScene final : public FrameSource {
@@ -37,18 +41,26 @@ class MeshScene final : public FrameSource {
         "../shared/data.");
     declare_path();
     declare_camera();
+    declare_imu();
+    declare_odometry();
   }
 
  private:
   void declare_path() {
-    params_.add_choice("plan", plan_, {{"loop", HousePlan::loop}})
-        .doc("The way through house.ply; not used where waypoints or a trajectory are given.");
+    params_.add_choice("plan", plan_, {{"loop", HousePlan::loop},
+                                            {"tour", HousePlan::tour},
+                                            {"corridor", HousePlan::corridor},
+                                            {"fast_turn", HousePlan::fast_turn},
+                                            {"kidnap", HousePlan::kidnap}})
+        .doc(
+            "The way through house.ply; not used where waypoints or a trajectory are given. loop: 31 m through two rooms; "
+            "tour: 55 m through all; corridor: along a bare wall; fast_turn: too fast for the images to overlap; kidnap: with "
+            "a jump to where the camera was before.");
     params_.add("waypoints", waypoints_)
+        .check([this] { return contradiction(); })
         .doc("A file of waypoints for any mesh: lines 'x y z yaw pitch [seconds]', m and degrees, or 'jump'.");
     params_.add("trajectory", trajectory_)
-        .check([this] {
-          return waypoints_.empty() || trajectory_.empty() ? std::string() : "give waypoints or a trajectory, not both";
-        })
+        .check([this] { return contradiction(); })
         .doc("A TUM file of camera poses, each of which makes a frame; rate, speed, turning and sway do not count then.");
     params_.add("frames", frames_).range(-1, 1e6).doc("Length of the sequence at most; -1: the whole way.");
     params_.add("rate", rate_).unit("Hz").above(0).doc("Frames per second.");
@@ -85,19 +97,64 @@ class MeshScene final : public FrameSource {
     params_.add("seed", seed_).range(0, 1e15).doc("Seed of the noise; it does not depend on the run's seed.");
   }
 
+  void declare_imu() {
+    params_.add("imu", has_imu_).check([this] { return contradiction(); }).doc("Whether frames carry inertial samples.");
+    params_.add("imu_rate", imu_.rate_Hz).unit("Hz").range(1, 1e5).doc("Inertial samples per second.");
+    params_.add("gyro_noise", imu_.gyro_noise).range(0, 10).doc("White noise of the gyroscope, rad/s/sqrt(Hz).");
+    params_.add("accel_noise", imu_.accel_noise).range(0, 10).doc("White noise of the accelerometer, m/s^2/sqrt(Hz).");
+    params_.add("gyro_walk", imu_.gyro_walk).range(0, 10).doc("Random walk of the gyroscope's bias, rad/s^2/sqrt(Hz).");
+    params_.add("accel_walk", imu_.accel_walk).range(0, 10).doc("Random walk of the accelerometer's bias, m/s^3/sqrt(Hz).");
+    params_.add("gyro_bias", imu_.gyro_bias)
+        .unit("rad/s")
+        .range(0, 1)
+        .doc("Standard deviation of the gyroscope's bias at the start, on each axis.");
+    params_.add("accel_bias", imu_.accel_bias)
+        .unit("m/s^2")
+        .range(0, 10)
+        .doc("Standard deviation of the accelerometer's bias at the start, on each axis.");
+  }
+  void declare_odometry() {
+    params_.add("odometry", has_odometry_).doc("Whether frames carry odometry, which drifts.");
+    params_.add("odometry_t_per_m", odometry_.t_per_m)
+        .range(0, 10)
+        .doc("Growth of the noise of a step's translation with its length, m/m.");
+    params_.add("odometry_t_per_rad", odometry_.t_per_rad)
+        .range(0, 10)
+        .doc("Growth of the noise of a step's translation with its turn, m/rad.");
+    params_.add("odometry_r_per_m", odometry_.r_per_m)
+        .range(0, 10)
+        .doc("Growth of the noise of a step's rotation with its length, rad/m.");
+    params_.add("odometry_r_per_rad", odometry_.r_per_rad)
+        .range(0, 10)
+        .doc("Growth of the noise of a step's rotation with its turn, rad/rad.");
+  }
+  /// What is wrong with parameters that exclude each other, or "".
+  std::string contradiction() const {
+    if (trajectory_.empty()) return "";
+    if (!waypoints_.empty()) return "give waypoints or a trajectory, not both";
+    if (has_imu_) return "poses of a trajectory have no derivatives for an inertial unit: give waypoints or a plan";
+    return "";
+  }
+
   std::unique_ptr<const FrameSequence> open_sequence() const override {
     const auto file = expand_data_path(file_);
-    return std::make_unique<MeshSequence>(file.string(), read_ply_mesh(file), optics(),
-                                          static_cast<std::uint64_t>(seed_), poses());
+    return std::make_unique<MeshSequence>(file.string(), read_ply_mesh(file), optics(), seed(), journey());
   }
-  std::vector<StampedPose> poses() const {
+  std::uint64_t seed() const { return static_cast<std::uint64_t>(seed_); }
+  CameraJourney journey() const {
+    CameraJourney out;
+    std::vector<double> jumps_s;
     if (!trajectory_.empty()) {
-      auto path = read_tum(expand_data_path(trajectory_));
-      if (frames_ >= 0 && static_cast<std::size_t>(frames_) < path.size()) path.resize(static_cast<std::size_t>(frames_));
-      return path;
+      out.poses = read_tum(expand_data_path(trajectory_));
+      if (frames_ >= 0) out.poses.resize(std::min(out.poses.size(), static_cast<std::size_t>(frames_)));
+    } else {
+      const CameraPath path(waypoints_.empty() ? house_plan(plan_) : read_waypoints(expand_data_path(waypoints_)), gait_);
+      out.poses = sampled(path, rate_, frames_);
+      jumps_s = path.jumps_s();
+      if (has_imu_) out.imu = imu_.samples(path, path.duration_s(), seed());
     }
-    const auto waypoints = waypoints_.empty() ? house_plan(plan_) : read_waypoints(expand_data_path(waypoints_));
-    return sampled(CameraPath(waypoints, gait_), rate_, frames_);
+    if (has_odometry_) out.T_odom_base = odometry_.poses(out.poses, jumps_s, seed());
+    return out;
   }
   MeshCamera optics() const {
     MeshCamera out = optics_;
@@ -123,6 +180,9 @@ class MeshScene final : public FrameSource {
   Model model_ = Model::tof176;
   NoiseChoice noise_ = NoiseChoice::camera;
   MeshCamera optics_;
+  bool has_imu_ = false, has_odometry_ = false;
+  SimulatedImu imu_;
+  SimulatedOdometry odometry_;
 };
 
 }  // namespace
@@ -131,5 +191,6 @@ class MeshScene final : public FrameSource {
 PPM_MODULES(r) {
   r.add<ppm::MeshScene>("source.mesh_scene",
                         "Makes depth images of any mesh, as a time-of-flight camera or a Kinect moved through it would see it.",
-                        "Noise models: Lange & Seitz, IEEE JQE 2001; Nguyen, Izadi, Lovell, 3DIMPVT 2012");
+                        "Lange & Seitz, IEEE JQE 2001; Nguyen, Izadi, Lovell, 3DIMPVT 2012 (cameras); Woodman 2007 (inertial unit); Thrun, Burgard, "
+                        "Fox 2005 (odometry)");
 }

@@ -6,9 +6,20 @@
 
 namespace ppm {
 
+std::vector<StampedPose> sampled(const CameraPath& path, double rate_Hz, std::int64_t frames) {
+  const auto whole = static_cast<std::int64_t>(std::floor(path.duration_s() * rate_Hz)) + 1;
+  const std::int64_t n = frames < 0 ? whole : std::min(frames, whole);
+  std::vector<StampedPose> poses;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double t = static_cast<double>(i) / rate_Hz;
+    poses.push_back({i, t, path.at(t).T_world_camera});
+  }
+  return poses;
+}
+
 MeshSequence::MeshSequence(std::string name, const TriangleMesh& mesh, const MeshCamera& camera, std::uint64_t seed,
-                           std::vector<StampedPose> poses)
-    : name_(std::move(name)), mesh_(mesh), camera_(camera), seed_(seed), poses_(std::move(poses)) {}
+                           CameraJourney journey)
+    : name_(std::move(name)), mesh_(mesh), camera_(camera), seed_(seed), journey_(std::move(journey)) {}
 
 Frame MeshSequence::read(std::int64_t index) const {
   Frame frame;
@@ -19,15 +30,12 @@ Frame MeshSequence::read(std::int64_t index) const {
   return frame;
 }
 
-std::vector<StampedPose> sampled(const CameraPath& path, double rate_Hz, std::int64_t frames) {
-  const auto whole = static_cast<std::int64_t>(std::floor(path.duration_s() * rate_Hz)) + 1;
-  const std::int64_t n = frames < 0 ? whole : std::min(frames, whole);
-  std::vector<StampedPose> poses;
-  for (std::int64_t i = 0; i < n; ++i) {
-    const double t = static_cast<double>(i) / rate_Hz;
-    poses.push_back({i, t, path.at(t).T_world_camera});
-  }
-  return poses;
+void MeshSequence::add_motion(double after_s, Frame& image) const {
+  const auto later = [](double t, const ImuSample& s) { return t < s.stamp_s; };
+  const auto first = std::upper_bound(journey_.imu.begin(), journey_.imu.end(), after_s, later);
+  const auto last = std::upper_bound(first, journey_.imu.end(), image.stamp_s, later);
+  image.imu.assign(first, last);
+  if (!journey_.T_odom_base.empty()) image.T_odom_base = journey_.T_odom_base.at(static_cast<std::size_t>(image.index));
 }
 
 }  // namespace ppm

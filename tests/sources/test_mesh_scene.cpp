@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <numbers>
+#include <span>
 
 #include "modules/sources/house_plans.hpp"
 #include "modules/sources/mesh_rays.hpp"
@@ -144,8 +147,37 @@ TEST_CASE("a scene that cannot be made is refused") {
   CHECK_THAT(data_error("source.mesh_scene",
                         "{file: " + (squares / "squares.ply").string() + ", waypoints: no/such.txt}"),
              Catch::Contains("no/such.txt: cannot be opened"));
-  CHECK_THROWS_WITH(SourceReader("source.mesh_scene", "{waypoints: a, trajectory: b}"),
-                    Catch::Contains("give waypoints or a trajectory, not both"));
+  for (const char* both : {"{waypoints: a, trajectory: b}", "{trajectory: b, waypoints: a}"})
+    CHECK_THROWS_WITH(SourceReader("source.mesh_scene", both), Catch::Contains("give waypoints or a trajectory, not both"));
+  CHECK_THROWS_WITH(SourceReader("source.mesh_scene", "{imu: true, trajectory: b}"), Catch::Contains("have no derivatives"));
+}
+
+TEST_CASE("the plans do what they are for") {
+  const auto steps = [](HousePlan plan) { return sampled(CameraPath(house_plan(plan), {}), 10, -1); };
+  const auto length = [](const std::vector<StampedPose>& path) {
+    double sum = 0;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      sum += (path[i].T_map_camera.translation() - path[i - 1].T_map_camera.translation()).norm();
+    return sum;
+  };
+  const auto turn_deg = [](const std::vector<StampedPose>& path) {
+    double most = 0;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      most = std::max(most, rotation_angle(path[i - 1].T_map_camera.inverse() * path[i].T_map_camera));
+    return most * 180 / std::numbers::pi;
+  };
+  const auto loop = steps(HousePlan::loop), fast = steps(HousePlan::fast_turn);
+  CHECK(length(loop) > 30);
+  CHECK(turn_deg(loop) < 6);
+  // The loop's last metres are its first: the same place, the same direction.
+  const Pose end = loop.back().T_map_camera;
+  CHECK(std::ranges::any_of(std::span(loop).first(100), [&](const StampedPose& p) {
+    const Pose step = p.T_map_camera.inverse() * end;
+    return step.translation().norm() < 0.1 && rotation_angle(step) < 0.1;
+  }));
+  CHECK(length(steps(HousePlan::tour)) > 50);
+  CHECK(turn_deg(fast) > 35);
+  CHECK(CameraPath(house_plan(HousePlan::kidnap), {}).jumps_s().size() == 1);
 }
 
 TEST_CASE("the planned ways through the house touch nothing") {
@@ -158,10 +190,13 @@ TEST_CASE("the planned ways through the house touch nothing") {
     around.push_back(Eigen::Vector3d(r * std::cos(a), r * std::sin(a), z).cast<float>());
   }
   std::vector<MeshHit> hit(around.size());
-  for (const HousePlan plan : {HousePlan::loop}) {
+  for (const HousePlan plan : {HousePlan::loop, HousePlan::tour, HousePlan::corridor, HousePlan::fast_turn, HousePlan::kidnap}) {
+    INFO("plan " << static_cast<int>(plan));
     for (const StampedPose& pose : sampled(CameraPath(house_plan(plan), {}), 5, -1)) {
       rays.cast(pose.T_map_camera.translation(), around, hit);
-      for (const MeshHit& h : hit) REQUIRE(h.range_m > 0.3);
+      const double clear_m = std::ranges::min_element(hit, {}, &MeshHit::range_m)->range_m;
+      CAPTURE(pose.stamp_s, clear_m);
+      REQUIRE(clear_m > 0.4);
     }
   }
 }
