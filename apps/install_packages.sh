@@ -7,7 +7,7 @@ packages=(
   libtbb-dev librandom123-dev libpng-dev libjpeg-dev zlib1g-dev libxxhash-dev libboost-dev libmeshoptimizer-dev
   libopenvdb-dev libboost-iostreams-dev
   libegl-dev libgl-dev libegl1 libgl1-mesa-dri
-  catch2 libopenmesh-dev libtinygltf-dev libbenchmark-dev libmrpt-poses-dev libmrpt-bayes-dev jq
+  catch2 libopenmesh-dev libtinygltf-dev libbenchmark-dev libmrpt-poses-dev libmrpt-obs-dev libmrpt-bayes-dev jq
 )
 missing=()
 for p in "${packages[@]}"; do

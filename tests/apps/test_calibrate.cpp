@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "tests/apps/command.hpp"
 #include "tests/support/data.hpp"
@@ -56,4 +57,37 @@ TEST_CASE("calibrate sensor fits the SR4000's noise, and every place as well by 
   CHECK(floor == Approx(0.013).margin(0.003));
   CHECK(signal == Approx(3.2).margin(0.4));
   CHECK(lines(content(bins)).size() > 30);
+}
+
+TEST_CASE("calibrate motion says how far each model misses the reference, and what to write into a graph") {
+  TempFolder folder;
+  const auto graph = (folder / "room.yaml").string();
+  write_text(graph, kRoomSource);
+  const auto few = ppm_command({"calibrate", "motion", graph});
+  CHECK(few->code == 2);
+  CHECK_THAT(few->err, Contains("7 reference poses are too few"));
+  const auto longer = std::vector<std::string>{"calibrate", "motion", graph, "--set", "camera.frames=60"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), longer.begin(), longer.end());
+    return ppm_command(more);
+  };
+  const auto all = with({"--every", "1,3"});
+  INFO(all->err);
+  REQUIRE(all->code == 0);
+  CHECK_THAT(all->out, Contains("motion.constant_velocity:") && Contains("motion.random_walk:") &&
+                           Contains("# motion.imu: the source has no inertial samples") &&
+                           Contains("# motion.odometry: the source has no odometry") && Contains("  sigma_t: "));
+  const auto one = with({"--model", "motion.random_walk", "--every", "1,2", "--json"});
+  REQUIRE(one->code == 0);
+  const auto json = nlohmann::json::parse(one->out);
+  REQUIRE(json["motion.random_walk"].size() == 2);
+  CHECK(json["motion.random_walk"][0]["steps"] == 57);
+  CHECK(json["motion.random_walk"][1]["sigma_t_m"] > 1.5 * json["motion.random_walk"][0]["sigma_t_m"].get<double>());
+  CHECK(json["motion.random_walk"][0].contains("consistency_learnt"));
+  const auto blind = with({"--model", "motion.imu"});
+  CHECK(blind->code == 2);
+  CHECK_THAT(blind->err, Contains("frame 0") && Contains("without inertial samples"));
+  const auto wrong = with({"--model", "motion.reference_pose"});
+  CHECK(wrong->code == 2);
+  CHECK_THAT(wrong->err, Contains("no motion model"));
 }
