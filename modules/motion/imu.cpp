@@ -13,13 +13,15 @@ using namespace ppm;
 
 constexpr const char* kColumn = "motion.imu";
 constexpr double kSameTime_s = 1e-6;
+constexpr double kVertical_s = 0.2;  // samples before the first image that tell the vertical
 
 /// Moves each particle as its inertial unit felt it. Each particle carries velocity, biases and the direction of gravity
 /// as a Gaussian (ImuFilter) that learns from where the particle's own path was put, frame by frame; what is not known
 /// of them widens what is expected of the next pose.
 ///
-/// frame    needs imu: samples since the image before, none missing for longer than max_gap. In the frame that the map
-///          begins with (where the node runs in it), they tell the vertical, else those of the frame after do
+/// frame    needs imu: samples since the image before, none missing for longer than max_gap. Those of the last 0.2 s before
+///          the image that the map begins with tell the vertical, or, where the node runs from the next one on, those between
+///          the two
 /// belief   column "motion.imu", an ImuFilter a particle
 /// metrics  of the best particle: speed (m/s), gyro_bias (rad/s), accel_bias (m/s^2), tilt_sigma (rad, of gravity),
 ///          distance (squared Mahalanobis, of the last settled pose against the one foretold: 6 on average where the
@@ -52,6 +54,7 @@ class ImuMotionModel final : public MotionModel {
   void begin(Context&) override {
     check_samples(*frame, frame->imu.empty() ? frame->stamp_s : frame->imu.front().stamp_s);
     before_ = frame->imu;
+    std::erase_if(before_, [&](const ImuSample& s) { return s.stamp_s < frame->stamp_s - kVertical_s; });
   }
 
   void before(Context& context) override {
