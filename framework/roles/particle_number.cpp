@@ -74,7 +74,9 @@ std::size_t ParticleNumber::wanted(ParticleSet& belief, std::span<const double> 
   const std::size_t now = belief.size();
   if (rule_ == Rule::kept) return now;
   if (rule_ == Rule::fixed) return static_cast<std::size_t>(fixed_);
-  const std::size_t asked = rule_ == Rule::kld ? by_spread(belief, weights, rng) : by_need(belief, weights);
+  const std::size_t asked = belief.lost           ? kld_.least
+                            : rule_ == Rule::kld ? by_spread(belief, weights, rng)
+                                                 : by_need(belief, weights);
   const double present = static_cast<double>(now), change = static_cast<double>(asked) - present;
   const bool out_of_bounds = now < kld_.least || now > kld_.most;
   if (std::abs(change) <= slack_ * present && !out_of_bounds) return now;

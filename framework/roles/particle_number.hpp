@@ -17,6 +17,7 @@ namespace ppm {
 /// need   few where the best particle's map explains the frame and the particles agree, many where the share of outliers
 ///        says that it does not, or several places are in question: least (most / least)^u with u from 0 to 1 as the
 ///        outliers go from `outliers_few` to `outliers_many`, and `per_place` for each cluster of poses
+/// Of a belief that is lost, kld and need ask for the fewest: its particles stand for nothing, and a recovery.* node searches.
 class ParticleNumber {
  public:
   void declare(Params& params);

@@ -44,7 +44,7 @@ class LossWatch {
     count_ = 0;
   }
 
-  double lost_outliers_ = 0.2, found_outliers_ = 0.12, lost_inliers_ = 0.15, found_inliers_ = 0.4;
+  double lost_outliers_ = 0.35, found_outliers_ = 0.15, lost_inliers_ = 0.15, found_inliers_ = 0.4;
   int patience_ = 3, confirm_ = 3;
   Phase phase_ = Phase::tracked;
   Verdict verdict_ = Verdict::explained;

@@ -49,7 +49,7 @@ class PlaceSearch {
   double start_t_ = 0.1, start_r_ = 5 * std::numbers::pi / 180;
   double spread_t_ = 0.05, spread_r_ = 3 * std::numbers::pi / 180;
   double spread_most_t_ = 0.5, spread_most_r_ = 30 * std::numbers::pi / 180;
-  double accept_outliers_ = 0.08, accept_inliers_ = 0.4;
+  double accept_outliers_ = 0.1, accept_inliers_ = 0.4;
   PerWorker<AlignScratch> scratch_;
 };
 

@@ -101,6 +101,17 @@ TEST_CASE("the number that is needed follows the outliers of the best view") {
   CHECK(std::ranges::is_sorted(numbers));
 }
 
+TEST_CASE("a belief that is lost needs few particles: they stand for nothing") {
+  for (const std::string number : {"need", "kld"}) {
+    Harness h(test::builtin(), "resampling.systematic", "{number: " + number + ", least: 20, most: 500, fall: 1}");
+    stand_apart(h.belief(), 40, 1);
+    set_outliers(h.belief(), 0.9f);
+    h.belief().lost = true;
+    h.tick();
+    CHECK(h.belief().size() == 20);
+  }
+}
+
 TEST_CASE("the number that is needed counts the places in question, not those without weight") {
   Harness h(test::builtin(), "resampling.systematic", "{number: need, least: 5, most: 500, per_place: 10, fall: 1, slack: 0}");
   stand_apart(h.belief(), 12, 1);

@@ -8,7 +8,7 @@ using Phase = LossWatch::Phase;
 
 namespace {
 
-constexpr ViewFit kGood{0.03f, 0.2f}, kDoubtful{0.15f, 0.2f}, kWrong{0.6f, 0.1f}, kNothing{0.0f, 0.95f};
+constexpr ViewFit kGood{0.03f, 0.2f}, kDoubtful{0.25f, 0.2f}, kWrong{0.6f, 0.1f}, kNothing{0.0f, 0.95f};
 
 /// The phases after frames of one particle each.
 std::vector<Phase> phases(LossWatch& watch, const std::vector<ViewFit>& frames) {
