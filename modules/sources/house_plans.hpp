@@ -10,7 +10,7 @@ namespace ppm {
 enum class HousePlan {
   loop,       ///< from the living room round the bedroom's screen and back; the first metres once more
   tour,       ///< the loop, then on through kitchen, dining place and winter garden, back to the beginning
-  corridor,   ///< between two good views a stretch along a bare wall that fills the view, with a halt
+  corridor,   ///< between two good views a stretch along a bare wall that fills the view, slower in the middle
   fast_turn,  ///< a turn that leaves little overlap between images, and a slow one back to what was seen before it
   kidnap,     ///< out of the living room into the bedroom, then all at once near the beginning again
 };
