@@ -18,6 +18,11 @@ void LossWatch::declare(Params& params) {
   params.add("patience", patience_)
       .range(1, 1000)
       .doc("The camera is lost when no particle explains so many frames in a row. No map learns from them.");
+  params.add("doubt", doubt_frames_)
+      .range(0, 100000)
+      .doc(
+          "While the camera is tracked but not explained well, known places are tried after each so many such frames in a row: "
+          "another place that explains the frame is then taken. 0: never.");
   params.add("confirm", confirm_)
       .range(1, 1000)
       .doc("It is found when so many frames are explained from a place that explained one.");
@@ -34,6 +39,7 @@ LossWatch::Phase LossWatch::next(std::span<const ViewFit> fits) {
   for (const auto& fit : fits) verdict_ = std::min(verdict_, judge(fit));
   switch (phase_) {
     case Phase::tracked:
+      doubt_ = verdict_ == Verdict::explained ? 0 : doubt_ + 1;
       if (verdict_ == Verdict::explained) count_ = 0;
       if (verdict_ == Verdict::unexplained && ++count_ >= patience_) lose();
       break;
@@ -54,12 +60,14 @@ void LossWatch::save(RecordWriter& out) const {
   out.add(phase_);
   out.add(verdict_);
   out.add(count_);
+  out.add(doubt_);
 }
 
 void LossWatch::load(RecordReader& in) {
   in.take(phase_);
   in.take(verdict_);
   in.take(count_);
+  in.take(doubt_);
 }
 
 }  // namespace ppm

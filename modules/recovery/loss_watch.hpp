@@ -32,7 +32,11 @@ class LossWatch {
   Phase phase() const { return phase_; }
   /// Of the last frame: no particle explained it.
   Verdict verdict() const { return verdict_; }
-  /// Tracked, and nothing speaks against it.
+  /// Tracked, and better looked for elsewhere: for so many frames in a row none was explained well.
+  bool doubted() const { return doubt_frames_ > 0 && doubt_ > 0 && doubt_ % doubt_frames_ == 0; }
+  /// Frames in a row that were tracked and not explained well.
+  int doubt() const { return doubt_; }
+  /// Tracked, and nothing speaks loudly against it.
   bool sure() const { return phase_ == Phase::tracked && count_ == 0; }
 
   void save(RecordWriter& out) const;
@@ -41,14 +45,15 @@ class LossWatch {
  private:
   void set(Phase phase) {
     phase_ = phase;
-    count_ = 0;
+    count_ = doubt_ = 0;
   }
 
   double lost_outliers_ = 0.35, found_outliers_ = 0.15, lost_inliers_ = 0.15, found_inliers_ = 0.4;
-  int patience_ = 3, confirm_ = 3;
+  int patience_ = 3, confirm_ = 3, doubt_frames_ = 5;
   Phase phase_ = Phase::tracked;
   Verdict verdict_ = Verdict::explained;
   int count_ = 0;  // tracked: unexplained frames in a row; returning: explained ones
+  int doubt_ = 0;
 };
 
 }  // namespace ppm

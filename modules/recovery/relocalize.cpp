@@ -24,6 +24,9 @@ constexpr const char* kAnchorColumn = "recovery.anchor";
 /// that explains the frame, all particles start anew there, as copies of the one whose map was searched; when they have held
 /// the place for a few frames, the camera is found.
 ///
+/// A wrong place may explain much of a frame (floor, a wall). So after some frames that are explained, but not well, known places are
+/// tried too, and particles and maps left as they are unless another place explains the frame.
+///
 /// While nothing is found the particles stand around their last sure poses, ever wider, with even weights; the run goes on, and
 /// the maps stay as they were. A camera that is carried to a place that the map does not have stays lost.
 ///
@@ -77,6 +80,7 @@ class Relocalize final : public Module {
     const auto phase = watch_.phase();
     if (phase == LossWatch::Phase::lost && before == LossWatch::Phase::tracked) declare_loss(context);
     if (phase == LossWatch::Phase::lost) search(context);
+    if (watch_.doubted()) look_elsewhere(context);
     if (phase == LossWatch::Phase::returning && before == LossWatch::Phase::lost) rest(context);
     if (phase == LossWatch::Phase::tracked && before == LossWatch::Phase::returning) declare_found(context);
     if (watch_.sure()) remember(context);
@@ -121,7 +125,11 @@ class Relocalize final : public Module {
           "found",
           context.node(), frame->index, context.frame() - sure_frame_);
     }
-    // The particle that was the best comes first: weights mean nothing until a place is found.
+    learn_places(context);
+  }
+
+  /// Brings the best particle to the front, and looks at its map from the known places. Weights mean nothing until a place is found.
+  void learn_places(Context& context) {
     std::vector<std::uint32_t> order(belief->size());
     std::iota(order.begin(), order.end(), 0u);
     std::swap(order.front(), order[belief->best()]);
@@ -142,20 +150,52 @@ class Relocalize final : public Module {
   }
 
   void search(Context& context) {
-    const Map& map = *belief->map.front();
-    view->prepare({&map}, context.workers());
-    aligner_.begin(*frame);
     const std::int64_t age = context.frame() - lost_since_;
     std::vector<SearchStart> starts;
     if (sure_frame_ >= 0) starts.push_back(search_.around(anchors()[0], age));
-    if (sure_frame_ < 0 || age >= search_.local_frames())
-      for (const auto& c : places_.candidates(*frame, context.workers())) starts.push_back(search_.at_place(c.T_map_camera));
-    tried_ = starts.size();
-    found_ = search_.run(starts, aligner_, *view, map, context);
+    if (sure_frame_ < 0 || age >= search_.local_frames()) add_places(starts, context);
+    try_starts(starts, context);
     if (found_.empty())
       spread(age, context);
     else
       start_anew(context);
+  }
+
+  /// Tries the known places beside the one that the particles hold, and takes what explains the frame.
+  void look_elsewhere(Context& context) {
+    learn_places(context);
+    std::vector<SearchStart> starts;
+    add_places(starts, context);
+    try_starts(starts, context);
+    const bool here = std::ranges::any_of(found_, [&](const Alignment& at) { return is_near(at.T_map_camera, belief->pose.front()); });
+    if (found_.empty() || here) {
+      found_.clear();
+      places_.forget();
+      return;
+    }
+    context.log().warning("{}: frame {}: lost: for {} frames the view was not explained well, and another place explains it",
+                          context.node(), frame->index, watch_.doubt());
+    lost_since_ = context.frame();
+    sure_frame_ = std::max<std::int64_t>(0, context.frame() - watch_.doubt());
+    start_anew(context);
+  }
+
+  static bool is_near(const Pose& a, const Pose& b) {
+    constexpr double kNear_m = 0.1, kNear_rad = 0.1;
+    const Pose between = a.inverse() * b;
+    return between.translation().norm() < kNear_m && rotation_angle(between) < kNear_rad;
+  }
+
+  void add_places(std::vector<SearchStart>& starts, Context& context) const {
+    for (const auto& c : places_.candidates(*frame, context.workers())) starts.push_back(search_.at_place(c.T_map_camera));
+  }
+
+  void try_starts(const std::vector<SearchStart>& starts, Context& context) {
+    const Map& map = *belief->map.front();
+    view->prepare({&map}, context.workers());
+    aligner_.begin(*frame);
+    tried_ = starts.size();
+    found_ = search_.run(starts, aligner_, *view, map, context);
   }
 
   /// All particles become copies of the one whose map was searched, shared out over the places found, by likelihood.

@@ -51,3 +51,17 @@ TEST_CASE("a frame that nothing explains is not sure, before any loss is declare
   CHECK(watch.verdict() == LossWatch::Verdict::unexplained);
   CHECK_FALSE(watch.sure());
 }
+
+TEST_CASE("frames that are explained, but not well, raise a doubt now and then, and no loss") {
+  LossWatch watch;
+  std::vector<int> doubted;
+  for (int frame = 1; frame <= 12; ++frame) {
+    watch.next({&kDoubtful, 1});
+    if (watch.doubted()) doubted.push_back(frame);
+  }
+  CHECK(doubted == std::vector{5, 10});
+  CHECK(watch.phase() == Phase::tracked);
+  watch.next({&kGood, 1});
+  CHECK(watch.doubt() == 0);
+  CHECK_FALSE(watch.doubted());
+}
