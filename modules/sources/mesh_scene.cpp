@@ -75,7 +75,7 @@ class MeshScene final : public FrameSource {
         .add_choice("camera", model_,
                     {{"tof176", Model::tof176}, {"sr4000", Model::sr4000}, {"kinect320", Model::kinect320}})
         .doc(
-            "tof176: time of flight, 176x144 pixels, 69 x 59 degrees (SR4000 with its wide lens); sr4000: the same with "
+            "The simulated camera. tof176: time of flight, 176x144 pixels, 69 x 59 degrees (SR4000 with its wide lens); sr4000: the same with "
             "its standard lens, 44 x 36 degrees; kinect320: structured light, 320x240 pixels, 57 x 45 degrees.");
     params_.add("cols", cols_).range(0, 4096).doc("Width of the image in pixels; 0: the camera's.");
     params_.add("rows", rows_).range(0, 4096).doc("Height of the image in pixels; 0: the camera's.");
@@ -87,7 +87,7 @@ class MeshScene final : public FrameSource {
                      {"kinect", NoiseChoice::kinect},
                      {"tof", NoiseChoice::tof}})
         .doc(
-            "exact: what each pixel's centre sees; kinect: axial and lateral noise of structured light; tof: noise by "
+            "The noise of depths. exact: what each pixel's centre sees; kinect: axial and lateral noise of structured light; tof: noise by "
             "amplitude, flying pixels, drop-outs; camera: the one of the camera.");
     params_.add("reflectance", optics_.reflectance).range(0.01, 1).doc("Share of light that surfaces send back, for tof.");
     params_.add("disparity_step", optics_.disparity_step)
