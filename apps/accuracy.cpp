@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/roles/frame_source.hpp"
+#include "framework/roles/online_path.hpp"
 #include "framework/roles/sensor_models.hpp"
 #include "framework/roles/view_predictor.hpp"
 
@@ -55,6 +56,23 @@ Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& pa
   return result;
 }
 
+void measure_path(const Graph& graph, const std::vector<StampedPose>& path, const Workers& workers, Accuracy& accuracy) {
+  const auto* source = graph.first<FrameSource>();
+  if (!source || path.empty()) return;
+  if (const auto* online = graph.first<OnlinePath>(); online && online->online_path().size() >= 2) {
+    const auto reference = source->reference(path.back().frame);
+    accuracy.online_estimate = online->online_estimate();
+    if (reference.size() >= 2) accuracy.trajectory_online = trajectory_error(online->online_path(), reference);
+  }
+  accuracy.revisits = score_revisits(path, *source, {}, workers);
+}
+
+std::string revisits_line(const ReprojectionError& error, const RevisitSettings& settings) {
+  const auto* gap = settings.form == RevisitSettings::Gap::exactly ? "" : " and more";
+  return fmt::format("  revisits    median {:.2f} mm   mean {:.2f} mm   beyond 10 cm {:.3f}   ({} pairs of images, {}{} apart)\n",
+                     error.median_mm, error.mean_mm, error.beyond_10cm, error.pairs, settings.gap, gap);
+}
+
 std::string accuracy_table(const Accuracy& accuracy) {
   std::string text;
   if (const auto& t = accuracy.trajectory) {
@@ -63,6 +81,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
   }
   for (const auto* h : {&accuracy.holdout, &accuracy.holdout_estimated})
     if (*h) text += holdout_lines(**h);
+  if (accuracy.revisits) text += revisits_line(*accuracy.revisits, {});
   return text;
 }
 

@@ -6,6 +6,8 @@
 
 #include "framework/graph/graph.hpp"
 #include "framework/roles/holdout.hpp"
+#include "framework/roles/revisits.hpp"
+#include "framework/slam/estimate.hpp"
 #include "framework/slam/trajectory_error.hpp"
 
 namespace ppm {
@@ -13,9 +15,13 @@ namespace ppm {
 /// How good path and map of a run are, as far as the source lets it be measured.
 struct Accuracy {
   std::optional<TrajectoryError> trajectory;  ///< where the source has at least 2 reference poses of the path's frames
+  /// Likewise of what was said of each frame when it was there, where a node kept that, and which pose it was.
+  std::optional<TrajectoryError> trajectory_online;
+  Estimate online_estimate = Estimate::best;
   /// Where frames were held out and the graph has a view predictor: looked at from the reference poses, where the source
   /// has them, and from the path's own, where these are not the reference.
   std::optional<Holdout> holdout, holdout_estimated;
+  std::optional<ReprojectionError> revisits;  ///< where a place was seen again; of the path's own poses
 };
 
 enum class HoldoutFrom { both, reference, estimated };
@@ -26,6 +32,12 @@ enum class HoldoutFrom { both, reference, estimated };
 Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& path, std::int64_t last_index,
                           const Map* map, HoldoutFrom from, const Workers& workers);
 
+/// The errors of the online path, into `accuracy`, and how well images of one place agree with the poses of the path. Both
+/// read nothing of the map. The graph's source must be open. Throws DataError.
+void measure_path(const Graph& graph, const std::vector<StampedPose>& path, const Workers& workers, Accuracy& accuracy);
+
+/// A line about revisits. settings: as they were scored.
+std::string revisits_line(const ReprojectionError& error, const RevisitSettings& settings);
 /// A table of a few lines for the terminal; "" where nothing could be measured.
 std::string accuracy_table(const Accuracy& accuracy);
 

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <memory>
+#include <optional>
 
 #include "apps/accuracy.hpp"
 #include "apps/commands.hpp"
@@ -94,6 +95,61 @@ void add_map(CLI::App& evaluate) {
   command->callback([o] { evaluate_map(*o); });
 }
 
+struct RevisitOptions {
+  std::filesystem::path run;
+  RevisitSettings settings;
+  std::optional<std::int64_t> gap;
+  bool reference = false, json = false;
+  std::vector<std::filesystem::path> plugins;
+  int threads = 0;
+};
+
+void evaluate_revisits(const RevisitOptions& o) {
+  RevisitSettings settings = o.settings;
+  if (o.gap) {
+    settings.form = RevisitSettings::Gap::exactly;
+    settings.gap = *o.gap;
+  }
+  auto path = read_tum(o.run / "trajectory.tum");
+  GraphOptions options;
+  options.file = o.run / "config.effective.yaml";
+  options.plugins = o.plugins;
+  const Graph graph = options.load();
+  auto* source = graph.first<FrameSource>();
+  if (!source) throw ConfigError(Place{options.file.string()}, "the graph has no source to take images from");
+  source->open_for_evaluation();
+  if (o.reference) path = source->reference(last_index_of_run(o.run));
+  const auto error = score_revisits(path, *source, settings, Workers(o.threads));
+  if (!error)
+    throw ConfigError(Place{o.run.string()}, fmt::format("no place was seen from two images that are {}{} apart",
+                                                         o.gap ? "" : "at least ", settings.gap));
+  fmt::print("{}", o.json ? revisits_json(*error, settings) : revisits_line(*error, settings));
+}
+
+void add_revisits(CLI::App& evaluate) {
+  auto* command = evaluate.add_subcommand(
+      "revisits", "The path of a run against itself: how well images of one place agree. Needs no reference");
+  auto o = std::make_shared<RevisitOptions>();
+  command->add_option("run", o->run, "Folder of a run, with trajectory.tum (sink.trajectory_tum)")
+      ->required()
+      ->type_name("FOLDER");
+  auto* least = command
+                    ->add_option("--least", o->settings.gap,
+                                 "Images that see the same place and are at least so many images of the source apart")
+                    ->check(CLI::PositiveNumber)
+                    ->capture_default_str();
+  command->add_option("--gap", o->gap, "Images that are exactly so many apart, instead")
+      ->check(CLI::PositiveNumber)
+      ->excludes(least);
+  command->add_option("--pairs", o->settings.pairs, "At most so many pairs")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_flag("--reference", o->reference, "With the source's reference poses in place of the run's");
+  command->add_option("--threads", o->threads, "Worker threads; 0 is as many as the machine has")
+      ->check(CLI::Range(0, 4096));
+  add_plugin_option(*command, o->plugins);
+  command->add_flag("--json", o->json, "As JSON");
+  command->callback([o] { evaluate_revisits(*o); });
+}
+
 }  // namespace
 
 void add_evaluate(CLI::App& app) {
@@ -101,6 +157,7 @@ void add_evaluate(CLI::App& app) {
   command->require_subcommand(1);
   add_trajectory(*command);
   add_map(*command);
+  add_revisits(*command);
 }
 
 }  // namespace ppm

@@ -80,14 +80,19 @@ struct Run {
     const auto best = belief.best();
     const auto path = belief.trajectory[best].poses();
     if (path.empty()) return {};
-    return measure_accuracy(graph, path, path.back().frame, belief.map[best].get(), HoldoutFrom::both, workers);
+    auto accuracy =
+        measure_accuracy(graph, path, path.back().frame, belief.map[best].get(), HoldoutFrom::both, workers);
+    measure_path(graph, path, workers, accuracy);
+    return accuracy;
   }
+
+  Tracking tracking() const { return tracking_of(graph, metrics); }
 
   void write(const RunSummary& summary, const Accuracy& measured) {
     write_file(folder.path() / kEffectiveGraph, graph.effective_yaml());
     if (times) write_file(folder.path() / "times.csv", times->csv());
     const RunReport report{graph,    summary,  executor.belief(), metrics,          workers,
-                           measured, checkpoints, start.graph_file,  folder.written()};
+                           measured, tracking(), checkpoints, start.graph_file,  folder.written()};
     write_file(folder.path() / "run.json", run_json(report));
   }
 
@@ -129,9 +134,10 @@ bool run(const RunOptions& options) {
   if (broken) std::rethrow_exception(broken);
   if (!options.quiet) {
     const auto folder = run.folder.path().string();
-    fmt::print("{} {} frames in {:.1f} s ({:.1f} fps); results in {}\n{}",
+    fmt::print("{} {} frames in {:.1f} s ({:.1f} fps); results in {}\n{}{}",
                summary.interrupted ? "interrupted after" : "done:", summary.frames, summary.wall_s,
-               static_cast<double>(summary.frames) / std::max(summary.wall_s, 1e-9), folder, accuracy_table(measured));
+               static_cast<double>(summary.frames) / std::max(summary.wall_s, 1e-9), folder, tracking_line(run.tracking()),
+               accuracy_table(measured));
     if (summary.interrupted && run.checkpoints.frame > 0) fmt::print("to go on: ppm run --resume {}\n", folder);
   }
   return !summary.interrupted;

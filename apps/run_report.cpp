@@ -1,12 +1,15 @@
 #include "apps/run_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "framework/core/timing.hpp"
 #include "framework/graph/abi.hpp"
 #include "framework/roles/weighting.hpp"
+#include "framework/slam/ancestry.hpp"
 #include "framework/slam/belief_digest.hpp"
 #include "framework/slam/map_memory.hpp"
 
@@ -45,17 +48,58 @@ Json map_json(const ParticleSet& belief) {
           {"bytes_shared_total", memory.alone - memory.together}};
 }
 
-/// Mean over the frames of the effective sample size as the (first) weighting left it; null where nothing is weighed.
-Json ess_mean(const RunReport& report) {
+/// The values of a metric of the (first) weighting, frame by frame; empty where nothing is weighed.
+std::vector<double> weighting_metric(const RunReport& report, const char* name) {
+  std::vector<double> values;
   for (const auto& node : report.graph.nodes()) {
     if (!dynamic_cast<const Weighting*>(node.module.get())) continue;
-    const auto column = report.metrics.columns().find(node.name + ".ess");
+    const auto column = report.metrics.columns().find(fmt::format("{}.{}", node.name, name));
     if (column == report.metrics.columns().end()) continue;
-    std::vector<double> values;
     for (const auto& row : column->second) values.push_back(row.value);
-    return mean(values);
+    break;
   }
-  return nullptr;
+  return values;
+}
+
+/// A number that may not be one: null.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json tracking_json(const RunReport& report) {
+  const auto& t = report.tracking;
+  Json json = {{"judge", nullptr}};
+  if (!t.judge.empty()) {
+    json = {{"judge", t.judge},
+            {"unexplained_frames", t.unexplained_frames},
+            {"lost_frames", t.lost_frames},
+            {"longest_lost", t.longest_lost},
+            {"first_lost", t.first_lost ? Json(*t.first_lost) : Json(nullptr)},
+            {"lost_at_end", t.lost_at_end}};
+  }
+  auto mean_of = [&](const char* name) { return number(mean(weighting_metric(report, name))); };
+  json["ess_min"] = number(quantile(weighting_metric(report, "ess"), 0));
+  json["outlier_share_mean"] = mean_of("outlier_share");
+  json["outlier_share_p95"] = number(quantile(weighting_metric(report, "outlier_share"), 0.95));
+  json["miss_weight_mean"] = mean_of("miss_weight");
+  json["innovation_mean"] = mean_of("innovation_mean");
+  json["innovation_variance"] = mean_of("innovation_variance");
+  const auto degenerate = weighting_metric(report, "degenerate");
+  json["degenerate_frames"] = std::ranges::count(degenerate, 1.0);
+  return json;
+}
+
+Json belief_json(const ParticleSet& belief) {
+  const auto poses = spread(belief);
+  const auto tree = ancestry(belief.trajectory);
+  return {{"spread_m", poses.translation_m},
+          {"spread_deg", poses.rotation_rad * 180 / std::numbers::pi},
+          {"ancestry",
+           {{"nodes", tree.nodes},
+            {"depth", tree.depth},
+            {"branchings", tree.branchings},
+            {"coalescence_frames", tree.coalescence_frames},
+            {"coalescence_s", tree.coalescence_s}}}};
 }
 
 Json trajectory_json(const TrajectoryError& t) {
@@ -80,13 +124,11 @@ Json color_json(const ColorScore& s) {
 
 Json holdout_json(const Holdout& h) {
   const auto& s = h.score;
-  // An infinite median (most pixels missed) has no number in JSON: null.
-  const Json median = std::isfinite(s.median_mm) ? Json(s.median_mm) : Json(nullptr);
   Json json = {{"poses", h.poses},
           {"frames", h.frames},
           {"pixels", s.pixels},
           {"coverage", s.coverage},
-          {"median_mm", median},
+          {"median_mm", number(s.median_mm)},  // infinite where most pixels are missed
           {"within_1cm", s.within_1cm},
           {"within_2cm", s.within_2cm},
           {"within_5cm", s.within_5cm},
@@ -99,10 +141,25 @@ Json holdout_json(const Holdout& h) {
   return json;
 }
 
+Json reprojection_json(const ReprojectionError& e, const RevisitSettings& settings) {
+  return {{"gap", settings.gap},
+          {"gap_is_exact", settings.form == RevisitSettings::Gap::exactly},
+          {"pairs", e.pairs},
+          {"pixels", e.pixels},
+          {"median_mm", number(e.median_mm)},
+          {"mean_mm", number(e.mean_mm)},
+          {"beyond_10cm", e.beyond_10cm}};
+}
+
 void add_accuracy(Json& json, const Accuracy& accuracy) {
   if (accuracy.trajectory) json["trajectory"] = trajectory_json(*accuracy.trajectory);
+  if (accuracy.trajectory_online) {
+    json["trajectory_online"] = {{"estimate", to_string(accuracy.online_estimate)}};
+    json["trajectory_online"].update(trajectory_json(*accuracy.trajectory_online));
+  }
   if (accuracy.holdout) json["holdout"] = holdout_json(*accuracy.holdout);
   if (accuracy.holdout_estimated) json["holdout_estimated"] = holdout_json(*accuracy.holdout_estimated);
+  if (accuracy.revisits) json["revisits"] = reprojection_json(*accuracy.revisits, {});
 }
 
 }  // namespace
@@ -121,10 +178,12 @@ std::string run_json(const RunReport& report) {
                {"wall_s", summary.wall_s},
                {"fps", summary.wall_s > 0 ? static_cast<double>(summary.frames) / summary.wall_s : 0.0},
                {"particles", belief.size()},
-               {"ess_mean", ess_mean(report)},
+               {"ess_mean", number(mean(weighting_metric(report, "ess")))},
+               {"tracking", tracking_json(report)},
                {"nodes", nodes_json(report)}};
   if (belief.size() > 0) {
     const auto best = belief.best();
+    json["belief"] = belief_json(belief);
     if (belief.map[best]) json["map"] = map_json(belief);
     if (!belief.trajectory[best].empty()) json["last_index"] = belief.trajectory[best].last().frame;
   }
@@ -134,6 +193,10 @@ std::string run_json(const RunReport& report) {
   json["digest"] = belief_digest(belief, report.workers);
   json["files"] = report.files;
   return json.dump(2) + "\n";
+}
+
+std::string revisits_json(const ReprojectionError& error, const RevisitSettings& settings) {
+  return Json{{"revisits", reprojection_json(error, settings)}}.dump(2) + "\n";
 }
 
 std::string accuracy_json(const Accuracy& accuracy) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/accuracy.hpp"
+#include "apps/tracking.hpp"
 #include "framework/graph/executor.hpp"
 
 namespace ppm {
@@ -24,6 +25,7 @@ struct RunReport {
   const Metrics& metrics;
   const Workers& workers;
   const Accuracy& accuracy;
+  Tracking tracking;
   const CheckpointCosts& checkpoints;
   std::filesystem::path graph_file;
   std::vector<std::string> files;  ///< that the run has written
@@ -31,6 +33,9 @@ struct RunReport {
 
 /// run.json, as documented in docs/metrics.md.
 std::string run_json(const RunReport& report);
+
+/// The numbers of `ppm evaluate revisits --json`.
+std::string revisits_json(const ReprojectionError& error, const RevisitSettings& settings);
 
 /// Trajectory and held-out numbers as in run.json, for `ppm evaluate --json`.
 std::string accuracy_json(const Accuracy& accuracy);

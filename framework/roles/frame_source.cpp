@@ -154,6 +154,11 @@ Frame FrameSource::full_frame(std::int64_t index, const CameraCorrection& correc
   return load(index, 1, conditioning);
 }
 
+double FrameSource::stamp_s(std::int64_t index) const {
+  PPM_CHECK(sequence_, "the source is not open");
+  return sequence_->stamp_s(index);
+}
+
 std::vector<StampedPose> FrameSource::reference(std::int64_t last) const {
   PPM_CHECK(sequence_, "the source is not open");
   std::vector<StampedPose> path;

@@ -33,9 +33,12 @@ class FrameSource : public Module {
   const std::vector<std::int64_t>& held_out() const { return selection_.held_out; }
   /// Indices of the images to be mapped, ascending. Valid after open().
   const std::vector<std::int64_t>& selected() const { return selection_.mapped; }
+  /// Indices of the images that the graph gets, ascending, and the stamp of one. Valid after open().
+  const std::vector<std::int64_t>& given() const { return given_; }
+  double stamp_s(std::int64_t index) const;
   /// Whether held-out images are given too, to be followed and not mapped.
   bool follows_held_out() const { return held_out_ == HeldOut::followed; }
-  /// A held-out image at the source's own resolution (no pixel stride), with range limits and sigma. Throws DataError.
+  /// An image at the source's own resolution (no pixel stride), with range limits and sigma. Throws DataError.
   Frame full_frame(std::int64_t index) const;
   /// The same with another correction of the camera than the parameters'.
   Frame full_frame(std::int64_t index, const CameraCorrection& correction) const;

@@ -45,6 +45,7 @@ void Weighting::before(Context& context) {
   measured_made_ = false;
   expected_.resize(context.threads());
   scores_.assign(belief->size(), {});
+  innovations_.assign(belief->size(), {});
   if (phase_ == Phase::random) {
     Rng rng = context.rng("phase");
     phase_x_ = rng.uniform();
@@ -76,7 +77,9 @@ void Weighting::tick(Context&, std::size_t particle, int worker) {
   for (std::size_t first = 0; first < pixels.size(); first += expected.size()) {
     expected.resize(std::min(block_size(), pixels.size() - first), channels);
     prediction.sample(std::span(pixels.pixel).subspan(first, expected.size()), expected);
-    total += score({*frame, pixels, first, expected});
+    const PixelBlock block(*frame, pixels, first, expected);
+    total += score(block);
+    innovations_[particle].add(block);
   }
 }
 
@@ -102,17 +105,29 @@ void Weighting::after(Context& context) {
                           any_hit ? "no particle has a finite weight" : "no compared pixel hits a map");
     warned_ = true;
   }
+  record(context);
+  context.metric("degenerate", degenerate ? 1.0 : 0.0);
+  if (ess_target_ > 0) context.metric("temper", temper);
+}
+
+void Weighting::record(Context& context) {
   auto& fits = belief->column<ViewFit>(kViewFitColumn);
-  for (std::size_t i = 0; i < scores_.size(); ++i) fits[i] = ViewFit::of(scores_[i]);
+  double miss_weight = 0;
+  for (std::size_t i = 0; i < scores_.size(); ++i) {
+    fits[i] = ViewFit::of(scores_[i]);
+    miss_weight += std::exp(belief->log_weight[i]) * static_cast<double>(fits[i].misses);
+  }
   const ViewScore& best = scores_[belief->best()];
   const ViewFit fit = fits[belief->best()];
+  const Innovation& innovation = innovations_[belief->best()];
   context.metric("ess", belief->ess());
   context.metric("entropy", entropy(belief->log_weight));
   context.metric("residual", best.hits > 0 ? best.residual_sum / static_cast<double>(best.hits) : 0.0);
   context.metric("outlier_share", static_cast<double>(fit.outliers));
   context.metric("miss_share", static_cast<double>(fit.misses));
-  context.metric("degenerate", degenerate ? 1.0 : 0.0);
-  if (ess_target_ > 0) context.metric("temper", temper);
+  context.metric("miss_weight", miss_weight);
+  context.metric("innovation_mean", innovation.mean());
+  context.metric("innovation_variance", innovation.variance());
 }
 
 }  // namespace ppm

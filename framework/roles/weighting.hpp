@@ -7,6 +7,7 @@
 #include "framework/core/parallel.hpp"
 #include "framework/graph/particle_module.hpp"
 #include "framework/slam/frame.hpp"
+#include "framework/slam/innovation.hpp"
 #include "framework/slam/measured_pixels.hpp"
 #include "framework/slam/pixel_block.hpp"
 #include "framework/slam/view_score.hpp"
@@ -23,8 +24,9 @@ namespace ppm {
 ///
 /// belief   needs a prediction of the frame's own camera (any stride); changes log_weight, and says how far each view fits (see ViewFit)
 ///
-/// metrics  ess, entropy (nats), degenerate; of the best particle: residual (mean absolute, m), outlier_share (of
-///          hits), miss_share (of compared pixels);
+/// metrics  ess, entropy (nats), degenerate; miss_weight (share of compared pixels where the map shows nothing, mean over the
+///          weighted particles); of the best particle: residual (mean absolute, m), outlier_share (of hits), miss_share (of
+///          compared pixels), innovation_mean and innovation_variance (of the normalised residuals, see Innovation);
 ///          where there is a target, temper: the exponent
 class Weighting : public ParticleModule {
  public:
@@ -57,6 +59,8 @@ class Weighting : public ParticleModule {
 
  private:
   const MeasuredPixels& measured(const Prediction& prediction);
+  /// How far the views fit, in the belief and in the metrics.
+  void record(Context& context);
 
   int pixels_;
   double ess_target_ = 0, temper_least_ = 0.01;
@@ -66,7 +70,8 @@ class Weighting : public ParticleModule {
   bool measured_made_ = false;
   MeasuredPixels measured_;
   PerWorker<ViewSamples> expected_;
-  std::vector<ViewScore> scores_;  // of this frame's particles, from tick() to after()
+  std::vector<ViewScore> scores_;        // of this frame's particles, from tick() to after()
+  std::vector<Innovation> innovations_;  // likewise
   bool warned_ = false;
 };
 

@@ -39,6 +39,8 @@ class Trajectory {
   bool operator==(const Trajectory& other) const { return head_ == other.head_; }
   /// Paths with the same identity are one path in memory, while a handle to it lives; null where it is empty.
   const void* identity() const { return head_; }
+  /// How many paths hold on to the last pose: handles, and paths that go on from it. 0 where it is empty.
+  std::int64_t holders() const { return head_ ? head_->count.load(std::memory_order_relaxed) : 0; }
 
  private:
   struct Node {

@@ -101,6 +101,38 @@ TEST_CASE("held-out frames that the filter follows are looked at from where it f
         Approx(json["holdout_estimated"]["median_mm"].get<double>()).epsilon(1e-3));
 }
 
+TEST_CASE("evaluate revisits: images of one place against each other, with the run's poses and the reference's") {
+  SmallRoom room;
+  REQUIRE(room.run()->code == 0);
+  auto evaluate = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"evaluate", "revisits", room.out.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return ppm_command(std::move(arguments));
+  };
+  auto measure = [&](std::vector<std::string> more) {
+    more.push_back("--json");
+    const auto run = evaluate(more);
+    INFO(run->err);
+    REQUIRE(run->code == 0);
+    return nlohmann::json::parse(run->out)["revisits"];
+  };
+  const auto run = measure({"--gap", "4"}), reference = measure({"--gap", "4", "--reference"});
+  CHECK(run["gap"] == 4);
+  CHECK(run["gap_is_exact"] == true);
+  CHECK(run["pairs"] == reference["pairs"]);
+  CHECK(reference["median_mm"].get<double>() < run["median_mm"].get<double>() + 5);
+  CHECK(reference["median_mm"].get<double>() < 30);
+  CHECK(measure({"--least", "4"})["pairs"].get<int>() > run["pairs"].get<int>());
+  CHECK(measure({"--least", "4", "--pairs", "3"})["pairs"] == 3);
+  CHECK(measure({"--least", "4", "--threads", "1"}) == measure({"--least", "4", "--threads", "4"}));
+  CHECK_THAT(evaluate({"--least", "4"})->out, Contains("revisits") && Contains("4 and more apart"));
+
+  const auto never = evaluate({});
+  CHECK(never->code == 2);
+  CHECK_THAT(never->err, Contains("at least 150"));
+  CHECK(evaluate({"--least", "4", "--gap", "4"})->code == 2);
+}
+
 TEST_CASE("evaluate map: folders and files that are wrong") {
   SmallRoom room;
   auto complaint = [&](std::vector<std::string> more) {

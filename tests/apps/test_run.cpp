@@ -53,12 +53,63 @@ TEST_CASE("a run leaves its folder complete and says where it is") {
     CHECK(json[holdout]["median_mm"].get<double>() < 60);
   }
   CHECK(json["digest"].get<std::string>().size() == 32);
+  CHECK(json["trajectory_online"]["estimate"] == "best");
+  CHECK(json["trajectory_online"]["pairs"] == 10);
+  CHECK(json["belief"]["spread_m"].get<double>() > 0);
+  const auto& ancestry = json["belief"]["ancestry"];
+  CHECK(ancestry["depth"] == 10);
+  CHECK(ancestry["nodes"].get<int>() >= 10);
+  CHECK(ancestry["nodes"].get<int>() <= 60);
+  CHECK(ancestry["coalescence_frames"].get<int>() <= 10);
+  const auto& tracking = json["tracking"];
+  CHECK(tracking["judge"].is_null());
+  CHECK_FALSE(tracking.contains("lost_frames"));  // nobody said
+  CHECK(tracking["ess_min"].get<double>() >= 1);
+  CHECK(tracking["degenerate_frames"] == 0);
+  CHECK(tracking["miss_weight_mean"].get<double>() < 0.2);
+  CHECK(tracking["innovation_variance"].get<double>() < 3);
+  CHECK_FALSE(json.contains("revisits"));  // twelve images
 
   CHECK(half_written(room.out).empty());
   std::vector<std::string> files = json["files"];
   CHECK(files == std::vector<std::string>{"config.effective.yaml", "map.ppm", "metrics.csv", "trajectory.tum",
                                           "trajectory_online.tum"});
   for (const auto& f : files) CHECK(std::filesystem::file_size(room.out / f) > 0);
+}
+
+TEST_CASE("a run that is lost says so, in run.json and on the terminal") {
+  SmallRoom room;
+  auto run_with = [&](const std::string& params) {
+    std::string text = kSmallRoom;
+    text.insert(text.find("  - {name: pick"),
+                "  - {name: find, module: recovery.relocalize, in: {frame: camera.frame, view: look}, when: {from_frame: 1}, "
+                "params: " + params + "}\n"
+                "  - {name: again, module: prediction.embree, in: {frame: camera.frame}, when: {from_frame: 1}}\n");
+    write_text(room.graph, text);
+    auto run = room.run();
+    INFO(run->err);
+    REQUIRE(run->code == 0);
+    return run;
+  };
+  const auto sound = run_with("{lost_outliers: 0.9, lost_inliers: 0}");
+  CHECK_THAT(sound->out, Contains("never lost"));
+  auto tracking = read_json(room.out / "run.json")["tracking"];
+  CHECK(tracking["judge"] == "find");
+  CHECK(tracking["lost_frames"] == 0);
+  CHECK(tracking["first_lost"].is_null());
+  CHECK(tracking["lost_at_end"] == false);
+
+  // Nothing is good enough: lost after a few frames, and to the end.
+  write_text(room.folder / "seen.tum", "0 0 0 0 0 0 0 1\n");
+  const auto lost = run_with("{lost_outliers: 0, found_outliers: 0, lost_inliers: 0.999, found_inliers: 1, patience: 2, path: " +
+                             (room.folder / "seen.tum").string() + "}");
+  CHECK_THAT(lost->out, Contains("LOST") && Contains("STILL LOST at the end") && !Contains("never lost"));
+  tracking = read_json(room.out / "run.json")["tracking"];
+  CHECK(tracking["lost_frames"].get<int>() >= 7);
+  CHECK(tracking["longest_lost"] == tracking["lost_frames"]);
+  CHECK(tracking["first_lost"].get<int>() <= 4);
+  CHECK(tracking["lost_at_end"] == true);
+  CHECK(tracking["unexplained_frames"].get<int>() > 0);
 }
 
 TEST_CASE("the same bytes for 1, 2 and 4 threads, and from the effective configuration, others for another seed") {

@@ -42,7 +42,7 @@ std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& file
 
 TEST_CASE("the metrics sink writes a row a frame") {
   ppm::test::TempFolder out;
-  ppm::Harness h(ppm::test::builtin(), "sink.metrics", "{memory_every: 2}", 1, 1, out.path());
+  ppm::Harness h(ppm::test::builtin(), "sink.metrics", "{memory_every: 2, ancestry_every: 2}", 1, 1, out.path());
   auto& belief = h.belief();
   belief.init(3, ppm::Pose::Identity(), std::make_shared<BlockMap>());
   belief.map[2] = std::make_shared<BlockMap>();
@@ -70,4 +70,12 @@ TEST_CASE("the metrics sink writes a row a frame") {
   CHECK(field(1, "sink.metrics.map_bytes_alone") == "3300");
   CHECK(field(2, "sink.metrics.map_bytes_owned").empty());
   CHECK(field(3, "sink.metrics.map_bytes_owned") == "1200");
+  // Three paths that share nothing, three poses each.
+  CHECK(field(1, "sink.metrics.ancestry_nodes") == "3");
+  CHECK(field(2, "sink.metrics.ancestry_nodes").empty());
+  CHECK(field(3, "sink.metrics.ancestry_nodes") == "9");
+  CHECK(field(3, "sink.metrics.branchings") == "0");
+  CHECK(field(3, "sink.metrics.coalescence_frames") == "3");
+  CHECK(field(3, "sink.metrics.spread_m") == "0");
+  CHECK(field(3, "sink.metrics.spread_deg") == "0");
 }

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 
 #include "framework/core/error.hpp"
@@ -44,6 +45,26 @@ TEST_CASE("the trajectory sink writes the best path in hindsight and the best po
   CHECK(positions(out / "trajectory.tum") == std::vector<double>{10, 20, 30});
   CHECK(positions(out / "trajectory_online.tum") == std::vector<double>{1, 2, 30});
   CHECK(std::distance(std::filesystem::directory_iterator(out.path()), {}) == 2);  // no half-written file stays
+}
+
+TEST_CASE("the online path is of the pose that is asked for") {
+  auto online = [](const std::string& estimate) {
+    ppm::test::TempFolder out;
+    ppm::Harness h(ppm::test::builtin(), "sink.trajectory_tum", "{online: " + estimate + "}", 1, 1, out.path());
+    drive(h);
+    h.close();
+    CHECK(positions(out / "trajectory.tum") == std::vector<double>{10, 20, 30});
+    return positions(out / "trajectory_online.tum");
+  };
+  CHECK(online("best") == std::vector<double>{1, 2, 30});
+  const double light = std::exp(-2.4), heavy = std::exp(-0.1);  // they sum to 1, about
+  const auto mean = online("mean");
+  CHECK(mean[0] == Approx(heavy * 1 + light * 10).epsilon(0.01));
+  CHECK(mean[2] == Approx(heavy * 30 + light * 3).epsilon(0.01));
+  const auto mode = online("mode");
+  CHECK(mode[0] < mean[0]);
+  CHECK(mode[2] > mean[2]);
+  CHECK_THROWS_AS(online("median"), ppm::ConfigError);
 }
 
 TEST_CASE("the trajectory sink takes file names, and says where it cannot write") {

@@ -3,6 +3,8 @@
 #include <map>
 #include <string>
 
+#include "modules/maps/picture/stroke.hpp"
+
 namespace ppm {
 namespace {
 
@@ -23,6 +25,8 @@ const std::map<char, std::string_view>& glyphs() {
       {'.', "2526"},
       {'-', "0444"},
       {'+', "0444 2226"},
+      {'_', "0747"},
+      {'/', "4006"},
       {'a', "4332120305163645 4246"},
       {'b', "0006 0312324345361605"},
       {'c', "4332120305163645"},
@@ -32,12 +36,14 @@ const std::map<char, std::string_view>& glyphs() {
       {'g', "4247381807 4332120305163645"},
       {'h', "0006 0312324346"},
       {'i', "2021 2226"},
+      {'j', "3031 32371807"},
       {'k', "0006 4204 1546"},
       {'l', "2026"},
       {'m', "0206 03122326 23324346"},
       {'n', "0206 0312324346"},
       {'o', "123243453616050312"},
       {'p', "0208 0312324345361605"},
+      {'q', "4248 4332120305163645"},
       {'r', "0206 03123243"},
       {'s', "43321203143445361605"},
       {'t', "10152636 0232"},
@@ -54,32 +60,12 @@ constexpr double kAdvance = 6, kGridHeight = 6;
 
 using Point = Eigen::Vector2d;
 
-/// Blends a colour where a pixel is nearer to the segment than half the pen's width.
-void draw_segment(RgbImage& image, const Point& a, const Point& b, double width, const Color& color) {
-  const double reach = width / 2 + 1;
-  const int x0 = std::max(static_cast<int>(std::min(a.x(), b.x()) - reach), 0);
-  const int x1 = std::min(static_cast<int>(std::max(a.x(), b.x()) + reach), image.cols - 1);
-  const int y0 = std::max(static_cast<int>(std::min(a.y(), b.y()) - reach), 0);
-  const int y1 = std::min(static_cast<int>(std::max(a.y(), b.y()) + reach), image.rows - 1);
-  const auto bytes = to_bytes(color);
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x) {
-      const Point p(x, y), ab = b - a;
-      const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-      const double cover = std::clamp(width / 2 + 0.5 - (a + t * ab - p).norm(), 0.0, 1.0);
-      auto* pixel = &image.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.cols) +
-                                    static_cast<std::size_t>(x))];
-      for (std::size_t k = 0; k < 3; ++k)
-        pixel[k] = static_cast<std::uint8_t>(std::lround((1 - cover) * pixel[k] + cover * bytes[k]));
-    }
-}
-
 void draw_glyph(RgbImage& image, std::string_view strokes, const Point& origin, double unit, double width,
                 const Color& color) {
   auto at = [&](std::size_t k) { return Point(origin + unit * Point(strokes[k] - '0', strokes[k + 1] - '0')); };
   for (std::size_t k = 0; k + 4 <= strokes.size(); k += 2) {
     if (strokes[k + 2] == ' ') k += 3;  // the pen is lifted: on to the next stroke's first point
-    draw_segment(image, at(k), at(k + 2), width, color);
+    draw_stroke(image, at(k), at(k + 2), width, color);
   }
 }
 

@@ -5,7 +5,7 @@
 
 namespace ppm {
 
-/// Draws small letters, digits and "+-." by strokes, anti-aliased, at any size; what else is in the text takes a blank's
+/// Draws small letters, digits and "+-._/" by strokes, anti-aliased, at any size; what else is in the text takes a blank's
 /// room. x, y: upper left corner, px. height_px: of a capital or digit.
 void draw_text(RgbImage& image, std::string_view text, double x, double y, double height_px, const Color& color);
 /// Width of a text in pixels.
