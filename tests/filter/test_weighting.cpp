@@ -238,6 +238,26 @@ TEST_CASE("metrics describe the best particle") {
   CHECK(metric(h, "residual") == Approx(0.3).epsilon(1e-3));
 }
 
+TEST_CASE("metrics count misses over all particles by weight, and normalise the residuals of the best") {
+  const Camera camera{40, 30, 4000, 4000, 19.5, 14.5};  // so narrow that all rays meet the wall head-on
+  const auto frame = wall_frame(camera, 2.003f, 0.002f);
+  const auto whole = wall_view(camera, kSomewhere, 2.0, 0, 4e-6f), half = wall_view(camera, kSomewhere, 2.0, 0, 4e-6f);
+  for (std::size_t i = 0; i < 600; ++i) forget(*half, i);
+  const Registry registry = builtin();
+  Harness h(registry, "weighting.robust", "{pixels: 0, temper: 0.0005}");
+  h.belief().init(2, kSomewhere, nullptr);
+  h.belief().prediction = {whole, half};
+  h.input<Frame>("frame", frame);
+  h.tick();
+  const double of_half = std::exp(h.belief().log_weight[1]);
+  REQUIRE(of_half > 0.05);
+  REQUIRE(of_half < 0.5);
+  CHECK(metric(h, "miss_weight") == Approx(0.5 * of_half));
+  CHECK(metric(h, "miss_share") == 0);
+  CHECK(metric(h, "innovation_mean") == Approx(0.003 / std::sqrt(8e-6)).epsilon(0.01));
+  CHECK(metric(h, "innovation_variance") == Approx(0).margin(1e-3));
+}
+
 TEST_CASE("a target for the ESS tempers frames that say too much, within its bound, and no others") {
   const Registry registry = builtin();
   const auto weigh = [&](const std::string& params, double apart_m) {
