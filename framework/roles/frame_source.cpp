@@ -84,10 +84,13 @@ void FrameSource::declare_correction() {
   params_.add("cy_shift", c.cy_shift).unit("px").doc("The same for its row.");
   params_.add("depth_factor", c.depth_factor)
       .range(0.1, 10)
-      .doc("Corrects depths: z becomes depth_factor * z + depth_bend * z^2, before all else looks at it.");
-  params_.add("depth_bend", c.depth_bend)
-      .range(-1, 1)
-      .doc("Corrects depths, 1/m, see depth_factor; where the corrected depth no longer grows with z it is dropped.");
+      .doc(
+          "Corrects depths, before all else looks at them: z becomes depth_factor * z / (1 - b z), where b = depth_bend + "
+          "depth_bend_x * X + depth_bend_y * Y + depth_bend_radial * (X^2 + Y^2), 1/m, and (X, Y, 1) is the pixel's ray.");
+  params_.add("depth_bend", c.depth_bend).range(-1, 1).doc("Corrects depths, 1/m, see depth_factor.");
+  params_.add("depth_bend_x", c.depth_bend_x).range(-1, 1).doc("The same, growing to the right.");
+  params_.add("depth_bend_y", c.depth_bend_y).range(-1, 1).doc("The same, growing downwards (with fy > 0).");
+  params_.add("depth_bend_radial", c.depth_bend_radial).range(-1, 1).doc("The same, growing from the middle outwards.");
 }
 
 void FrameSource::open(Context& context) {

@@ -91,3 +91,55 @@ TEST_CASE("calibrate motion says how far each model misses the reference, and wh
   CHECK(wrong->code == 2);
   CHECK_THAT(wrong->err, Contains("no motion model"));
 }
+
+TEST_CASE("calibrate camera finds what was falsified in the simulated room") {
+  const auto run = ppm_command({"calibrate", "camera", std::string(PPM_SOURCE_DIR) + "/configs/room.yaml", "--set",
+                                "camera.focal_scale=0.97", "--set", "camera.depth_bend=0.02", "--frames", "30", "--step", "4"});
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  double focal = 0, bend = 1, sigma = 0;
+  for (const auto& line : lines(run->out)) {
+    std::sscanf(line.c_str(), "focal_scale: %lf # +- %lf", &focal, &sigma);
+    std::sscanf(line.c_str(), "depth_bend: %lf", &bend);
+  }
+  CHECK(focal == Approx(1).margin(0.004));
+  CHECK(bend == Approx(0).margin(0.005));
+  CHECK(sigma < 0.003);
+}
+
+TEST_CASE("calibrate camera says why a camera cannot be found") {
+  TempFolder folder;
+  const auto graph = (folder / "room.yaml").string();
+  write_text(graph, kRoomSource);
+  const auto few = ppm_command({"calibrate", "camera", graph});
+  CHECK(few->code == 2);
+  CHECK_THAT(few->err, Contains("7 of 7 frames have a pose") && Contains("8"));
+  const auto still = ppm_command({"calibrate", "camera", graph, "--set", "camera.frames=9"});
+  CHECK(still->code == 2);
+  CHECK_THAT(still->err, Contains("focal length cannot be seen"));
+  const auto apart = ppm_command({"calibrate", "camera", graph, "--set", "camera.frames=380", "--frames", "9"});
+  CHECK(apart->code == 2);
+  CHECK_THAT(apart->err, Contains("too little overlap"));
+}
+
+TEST_CASE("calibrate noise fits the noise of a run's source to its held-out frames") {
+  TempFolder folder;
+  const auto out = (folder / "run").string();
+  REQUIRE(ppm_command({"run", std::string(PPM_SOURCE_DIR) + "/configs/room_mapping.yaml", "--frames", "60", "--out", out})->code == 0);
+  const auto run = ppm_command({"calibrate", "noise", out});
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  double before = 0, after = 0, one = 0, floor = 0, lateral = 0;
+  for (const auto& line : lines(run->out)) {
+    std::sscanf(line.c_str(), "sigma_floor: %lf m", &floor);
+    std::sscanf(line.c_str(), "sigma_lateral: %lf px", &lateral);
+    std::sscanf(line.c_str(), "#   the run's noise model %lf", &before);
+    std::sscanf(line.c_str(), "#   this fit %lf %lf", &after, &one);
+  }
+  CHECK(floor > 0.001);
+  CHECK(floor < 0.01);
+  CHECK(lateral > 0);
+  CHECK(after > before - 0.1);  // the room gives the true sigma of each pixel; the model knows the depth alone
+  CHECK(one == Approx(0.683).margin(0.08));
+  CHECK(ppm_command({"calibrate", "noise", (folder / "none").string()})->code == 2);
+}

@@ -75,22 +75,26 @@ TEST_CASE("noise is the model's where the source gives none, and the source's wh
 
 TEST_CASE("the camera is put right before all else: principal point in pixels as read, depth before its limits") {
   ppm::FrameConditioning conditioning;
-  conditioning.correction = {.focal_scale = 0.9, .cx_shift = 1, .cy_shift = -0.5, .depth_factor = 1.1, .depth_bend = 0.2};
+  conditioning.correction = {.focal_scale = 0.9, .cx_shift = 1, .cy_shift = -0.5, .depth_factor = 1.1, .depth_bend = 0.1,
+                             .depth_bend_x = 0.2, .depth_bend_y = -0.1, .depth_bend_radial = 0.05};
   conditioning.max_range_m = 2.5;
   auto image = image_5x3();
   const auto modelled = conditioning.apply(image, 2);
   CHECK(modelled.camera == ppm::Camera{5, 3, 9, 10.8, 3, 0.5}.decimated(2));
-  CHECK(modelled.depth[1] == Approx(1.1 * 1.2 + 0.2 * 1.2 * 1.2));
+  // Pixel (2, 0) as read, on the ray (-1/9, -0.5/10.8): z = 1.2.
+  const double X = -1 / 9.0, Y = -0.5 / 10.8, b = 0.1 + 0.2 * X - 0.1 * Y + 0.05 * (X * X + Y * Y);
+  CHECK(modelled.depth[1] == Approx(1.1 / (1 / 1.2 - b)));
   CHECK(modelled.sigma[1] == Approx(conditioning.sigma(modelled.depth[1])));
-  CHECK(std::isnan(modelled.depth[5]));  // 2.4 m as read, beyond the limit as corrected
+  CHECK(modelled.valid(3));
+  CHECK_FALSE(modelled.valid(5));  // 2.4 m as read, beyond the limit as corrected
   image.sigma.assign(15, 0.01f);
-  CHECK(conditioning.apply(image, 2).sigma[1] == Approx(0.01 * (1.1 + 0.4 * 1.2)));
+  CHECK(conditioning.apply(image, 2).sigma[1] == Approx(0.01 * 1.1 / std::pow(1 - 1.2 * b, 2)));
 }
 
-TEST_CASE("a correction that would fold depths over drops them") {
-  const ppm::CameraCorrection correction{.depth_bend = -0.2};
-  CHECK(correction.depth(2.4) == Approx(2.4 - 0.2 * 2.4 * 2.4));
-  CHECK(std::isnan(correction.depth(2.6)));
+TEST_CASE("depths that a correction takes beyond infinity are no return") {
+  const ppm::CameraCorrection correction{.depth_bend = 0.2};
+  CHECK(correction.depth(4, 0.2) == Approx(20));
+  CHECK(std::isnan(correction.depth(5.1, 0.2)));
 }
 
 TEST_CASE("an image whose arrays do not fit its camera is a bug that is told") {
