@@ -68,6 +68,7 @@ TEST_CASE("the simulated house's graphs run a few frames") {
   const std::string file = "camera.file=" + data->string();
   runs_as_it_did({"house_mapping.yaml", {"--set", file}, 1e-6, 0.9, 20});
   runs_as_it_did({"house_slam.yaml", {"--set", file, "--set", "init.particles=20"}, 0.06, 0.9, 40});
+  runs_as_it_did({"house_slam_odometry.yaml", {"--set", file}, 0.02, 0.9, 25});
 }
 
 TEST_CASE("sr4000_still.yaml maps a place from four images") {
