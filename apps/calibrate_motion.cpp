@@ -33,10 +33,11 @@ struct Model {
   std::string name;
   Config params;
   std::string learning;  ///< as YAML, but with learnt noise; empty where the model does not learn
+  Config fitted;         ///< of motion.imu: the parameters under which the path is likeliest
 };
 
 Model model_of(const std::string& name, const Module& module, int noise_steps) {
-  Model out{name, module.params().effective(), ""};
+  Model out{name, module.params().effective(), "", {}};
   if (module.params().find("noise_steps")) {
     Config params = out.params;
     params.set("noise_steps", {}, Config::scalar(std::to_string(noise_steps), {}));
@@ -126,8 +127,9 @@ void print_parameters(const Model& model, const Line& line) {
     fmt::print("  t_per_m: {:.3g}\n  t_per_rad: {:.3g}\n  r_per_m: {:.3g}\n  r_per_rad: {:.3g}\n", t.per_m, t.per_rad,
                r.per_m, r.per_rad);
   } else if (model.name == "motion.imu") {
-    for (const char* key : {"sigma_t", "sigma_r", "gyro_noise", "accel_noise"})
-      fmt::print("  {}: {:.3g}\n", key, std::sqrt(s.consistency) * std::stod(model.params.find(key)->text()));
+    for (const char* key : {"gyro_noise", "accel_noise"}) fmt::print("  {}: {}\n", key, model.fitted.find(key)->text());
+    fmt::print("  # the reference's own errors seem to be {} m, {} rad (sigma_t and sigma_r are those of the filter's poses)\n",
+               model.fitted.find("sigma_t")->text(), model.fitted.find("sigma_r")->text());
   } else {
     fmt::print("  sigma_t: {:.4g} m\n  sigma_r: {:.4g} rad\n", s.sigma_t, s.sigma_r);
   }
@@ -199,6 +201,9 @@ void calibrate_motion(const MotionOptions& o) {
     Result result{model, o.models.empty() ? lacking(model.name, frames) : "", {}};
     if (result.lacks.empty()) {
       result.lines = lines_of(o, registry, model, frames);
+      if (model.name == "motion.imu")
+        result.model.fitted = likeliest(registry, model.name, model.params,
+                                        {"gyro_noise", "accel_noise", "sigma_t", "sigma_r"}, frames);
       if (result.lines.empty())
         throw DataError(o.graph.file.string(), fmt::format("{} reference poses are too few", frames.size()));
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "framework/core/so3.hpp"
 #include "framework/core/timing.hpp"
@@ -20,6 +22,7 @@ constexpr std::size_t kLeftOut = 2;
 MotionError error_of(const MotionPrior& prior, const Frame& before, const Frame& now) {
   MotionError e;
   e.error = prior.offset(*now.T_world_camera_ref);
+  e.log_density = prior.log_density(*now.T_world_camera_ref);
   e.body_error = adjoint(now.T_base_camera) * e.error;
   // The floor is that of MotionPrior::log_density.
   e.mahalanobis = e.error.dot((prior.covariance + 1e-12 * Matrix6::Identity()).ldlt().solve(e.error));
@@ -107,6 +110,35 @@ GrowingNoise fit_growing_noise(const std::vector<MotionError>& errors, bool rota
     best = x;
   }
   return {best[0], best[1], best[2]};
+}
+
+Config likeliest(const Registry& registry, const std::string& model, Config params,
+                 const std::vector<std::string>& keys, const std::vector<Frame>& frames) {
+  const auto likelihood = [&](const Config& some) {
+    double sum = 0;
+    for (const auto& e : motion_errors(registry, model, some.to_yaml(), frames)) sum += e.log_density;
+    return sum;
+  };
+  constexpr double kLeast = 1e-7;
+  double best = likelihood(params);
+  for (const double factor : {4.0, 2.0, 1.3, 1.1}) {
+    for (bool better = true; better;) {
+      better = false;
+      for (const auto& key : keys)
+        for (const double times : {factor, 1 / factor}) {
+          const double value = times * std::stod(params.find(key)->text());
+          if (value < kLeast) continue;
+          Config changed = params;
+          changed.set(key, {}, Config::scalar(fmt::format("{:.6g}", value), {}));
+          const double now = likelihood(changed);
+          if (!(now > best)) continue;
+          best = now;
+          params = std::move(changed);
+          better = true;
+        }
+    }
+  }
+  return params;
 }
 
 }  // namespace ppm

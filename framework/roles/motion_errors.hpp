@@ -11,6 +11,7 @@ namespace ppm {
 /// One step of a motion model along a path that is known.
 struct MotionError {
   Twist error = Twist::Zero();  ///< the true pose against the one foretold: m, rad, axes of the camera
+  double log_density = 0;       ///< of the true pose, by what the model expected
   double mahalanobis = 0;       ///< squared, of error by what the model expected: 6 on average where its noise is right
   Pose T_body_step = Pose::Identity();  ///< what odometry says of the step; identity without
   Twist body_error = Twist::Zero();     ///< the error as a twist of the body
@@ -41,5 +42,10 @@ struct GrowingNoise {
 };
 /// Fitted to the errors' translations (m) or rotations (rad), none of the three negative.
 GrowingNoise fit_growing_noise(const std::vector<MotionError>& errors, bool rotation);
+
+/// The parameters with some of them, positive numbers in SI units, changed so that the true poses are as likely as can be: a
+/// search from the given values, factor by factor.
+Config likeliest(const Registry& registry, const std::string& model, Config params,
+                 const std::vector<std::string>& keys, const std::vector<Frame>& frames);
 
 }  // namespace ppm

@@ -34,6 +34,7 @@ void ImuFilter::begin(double stamp_now_s, const Pose& T_map_base_now, std::span<
   PPM_CHECK(force.norm() > 0, "{} samples without force tell no vertical", samples.size());
   stamp_s = stamp_now_s;
   T_map_base = T_map_base_now;
+  slips = 0;
   velocity.setZero();
   bias = {};
   gravity = -kGravity * (T_map_base.linear() * force).normalized();
@@ -91,7 +92,7 @@ double ImuFilter::distance(const Pose& measured, const Matrix6& pose_noise) cons
   return y.dot(S.ldlt().solve(y));
 }
 
-double ImuFilter::correct(const Pose& measured, const Matrix6& pose_noise) {
+void ImuFilter::correct(const Pose& measured, const Matrix6& pose_noise) {
   const Twist y = se3_log(T_map_base.inverse() * measured);
   const Eigen::LDLT<Matrix6> S(covariance.topLeftCorner<6, 6>() + pose_noise);
   const Eigen::Matrix<double, kSize, 6> gain = S.solve(covariance.topRows<6>()).transpose();
@@ -105,12 +106,19 @@ double ImuFilter::correct(const Pose& measured, const Matrix6& pose_noise) {
   bias.accel += change.segment<3>(kAccel);
   gravity += change.segment<3>(kG);
   keep_gravity_length();
-  return y.dot(S.solve(y));
+}
+
+void ImuFilter::correct_at_most(const Pose& measured, Matrix6 pose_noise, double gate) {
+  slips = distance(measured, pose_noise) > gate ? slips + 1 : 0;
+  constexpr int kMostDoublings = 60;  // noise that is zero stays zero
+  for (int k = 0; k < kMostDoublings && distance(measured, pose_noise) > gate; ++k) pose_noise *= 2;
+  correct(measured, pose_noise);
 }
 
 void ImuFilter::restart(double stamp_now_s, const Pose& measured, const Matrix6& pose_noise, const ImuStart& start) {
   stamp_s = stamp_now_s;
   T_map_base = measured;
+  slips = 0;
   velocity.setZero();
   constexpr int n = kGyro;  // pose and velocity
   covariance.topRows<n>().setZero();
@@ -142,6 +150,7 @@ void save(RecordWriter& out, const ImuFilter& f) {
   out.add(f.bias.accel);
   out.add(f.gravity);
   out.add(f.covariance);
+  out.add(f.slips);
 }
 
 void load(RecordReader& in, ImuFilter& f) {
@@ -152,6 +161,7 @@ void load(RecordReader& in, ImuFilter& f) {
   in.take(f.bias.accel);
   in.take(f.gravity);
   in.take(f.covariance);
+  in.take(f.slips);
 }
 
 }  // namespace ppm

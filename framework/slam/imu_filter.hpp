@@ -30,6 +30,7 @@ class ImuFilter {
   ImuBias bias;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, map frame; zero where the filter has not begun
   Covariance covariance = Covariance::Zero();
+  int slips = 0;  ///< poses in a row beyond the gate of correct_at_most()
 
   bool begun() const { return !gravity.isZero(); }
   /// At rest as far as is known, gravity along the mean force of some samples taken about there. pose_noise: of the pose,
@@ -38,11 +39,14 @@ class ImuFilter {
              const Matrix6& pose_noise, const ImuStart& start);
   /// Goes on by a motion, whatever biases were taken off it.
   void predict(const ImuMotion& motion, const ImuNoise& noise);
-  /// Learns from where the body was put. pose_noise: covariance of that, as a twist of the body. Returns the squared
-  /// Mahalanobis distance between the pose and the prediction, of 6 degrees of freedom.
-  double correct(const Pose& measured, const Matrix6& pose_noise);
-  /// The squared Mahalanobis distance that correct() would return; nothing is learnt.
+  /// Squared Mahalanobis distance between where the body was put and the prediction, of 6 degrees of freedom. pose_noise:
+  /// covariance of the former, as a twist of the body.
   double distance(const Pose& measured, const Matrix6& pose_noise) const;
+  /// Learns from where the body was put.
+  void correct(const Pose& measured, const Matrix6& pose_noise);
+  /// Learns from a pose beyond the distance `gate` as much as if its noise were so large that it is not: an alignment that
+  /// slipped says little of velocity. Counts slips.
+  void correct_at_most(const Pose& measured, Matrix6 pose_noise, double gate);
   /// Where the body was moved in a way that no motion explains: the pose is taken as it is, and the velocity is as
   /// unknown as at the start. Biases and gravity stay.
   void restart(double stamp_now_s, const Pose& measured, const Matrix6& pose_noise, const ImuStart& start);

@@ -22,10 +22,10 @@ constexpr double kVertical_s = 0.2;  // samples before the first image that tell
 /// frame    needs imu: samples since the image before, none missing for longer than max_gap. Those of the last 0.2 s before
 ///          the image that the map begins with tell the vertical, or, where the node runs from the next one on, those between
 ///          the two
-/// belief   column "motion.imu", an ImuFilter a particle
 /// metrics  of the best particle: speed (m/s), gyro_bias (rad/s), accel_bias (m/s^2), tilt_sigma (rad, of gravity),
 ///          distance (squared Mahalanobis, of the last settled pose against the one foretold: 6 on average where the
-///          noise is right); restarts: particles whose last pose no motion explains (beyond max_distance), or another node chose
+///          noise is right); restarts: particles that were moved by other means than motion (lost or found; slips)
+/// belief   column "motion.imu", an ImuFilter a particle
 /// throws   DataError where the frame's samples are missing, out of order, or not finite
 /// source   Forster, Carlone, Dellaert, Scaramuzza, TRO 33(1), 2017 (preintegration)
 class ImuMotionModel final : public MotionModel {
@@ -44,11 +44,14 @@ class ImuMotionModel final : public MotionModel {
         .doc("Density of the random walk of the accelerometer's bias, m/s^3/sqrt(Hz).");
     declare_start();
     params_.add("max_gap", max_gap_s_).unit("s").above(0).doc("Longest time without a sample that is allowed.");
-    params_.add("max_distance", max_distance_)
+    params_.add("gate", gate_)
         .above(0)
         .doc(
             "Squared Mahalanobis distance (6 degrees of freedom) between a settled pose and the one foretold beyond "
-            "which the particle was moved by other means (found again, say): its velocity is then unknown again.");
+            "which the pose has slipped: it counts as if its noise were larger.");
+    params_.add("slips", slips_)
+        .range(1, 1000)
+        .doc("Frames in a row that may slip. Then the settled poses are right, and velocity is unknown again.");
   }
 
   void begin(Context&) override {
@@ -70,6 +73,7 @@ class ImuMotionModel final : public MotionModel {
     const auto last = before_.empty() ? std::nullopt : std::optional(before_.back());
     motion_ = preintegrate(frame->imu, last, begin_s_, frame->stamp_s, mean_bias(), noise_);
     before_ = {frame->imu.back()};
+    was_lost_ = particles.lost;
   }
 
   MotionPrior expect(std::size_t i, const Trajectory&, const Frame&) override {
@@ -80,8 +84,14 @@ class ImuMotionModel final : public MotionModel {
     return {filter.T_map_base * T_base_camera_, to_camera * spread * to_camera.transpose()};
   }
 
-  void save(RecordWriter& out) const override { out.add(before_); }
-  void load(RecordReader& in) override { in.take(before_); }
+  void save(RecordWriter& out) const override {
+    out.add(before_);
+    out.add(was_lost_);
+  }
+  void load(RecordReader& in) override {
+    in.take(before_);
+    in.take(was_lost_);
+  }
 
  private:
   void declare_start();
@@ -93,9 +103,11 @@ class ImuMotionModel final : public MotionModel {
   ImuNoise noise_;
   ImuStart start_;
   PoseNoise pose_noise_{0.002, 0.002};
-  double max_gap_s_ = 0.1, max_distance_ = 200;
+  double max_gap_s_ = 0.1, gate_ = 17;
+  int slips_ = 5;
 
   std::vector<ImuSample> before_;  // the frame's before: of the one that the map began with all, else the last
+  bool was_lost_ = false;          // in the frame before
   // Of this frame.
   Column<ImuFilter>* filters_ = nullptr;
   double begin_s_ = 0;
@@ -172,19 +184,18 @@ void ImuMotionModel::settle(Context& context) {
   context.metric("restarts", restarts);
 }
 
-/// Whether the particle was moved by other means than motion.
+/// Whether the particle was moved by other means than motion: its velocity is then unknown again.
 bool ImuMotionModel::settle(ImuFilter& filter, const Pose& T_map_base, double& distance) const {
   if (!filter.begun()) {
     filter.begin(begin_s_, T_map_base, before_.empty() ? frame->imu : before_, settled_noise_, start_);
     return false;
   }
   distance = filter.distance(T_map_base, settled_noise_);
-  if (distance > max_distance_ || std::abs(filter.stamp_s - begin_s_) > kSameTime_s) {
-    filter.restart(begin_s_, T_map_base, settled_noise_, start_);
-    return true;
-  }
-  filter.correct(T_map_base, settled_noise_);
-  return false;
+  filter.correct_at_most(T_map_base, settled_noise_, gate_);
+  const bool followed = std::abs(filter.stamp_s - begin_s_) < kSameTime_s;
+  if (followed && !belief->lost && !was_lost_ && filter.slips <= slips_) return false;
+  filter.restart(begin_s_, T_map_base, settled_noise_, start_);
+  return true;
 }
 
 }  // namespace

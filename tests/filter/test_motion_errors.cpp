@@ -99,3 +99,22 @@ TEST_CASE("odometry's growing noise is found again") {
   CHECK(r.per_m == Approx(0).margin(0.002));
   CHECK(r.per_rad == Approx(0.03).epsilon(0.06));
 }
+
+TEST_CASE("the noise of an inertial unit is found again as what makes its path likeliest") {
+  const ppm::test::SwingingBody body;
+  ppm::test::NoisyImu imu{{3e-3, 3e-2, 1e-5, 1e-4}, {}, ppm::Rng(1, 0, 0, 0)};
+  ppm::Rng rng(2, 0, 0, 0);
+  std::vector<Frame> frames;
+  for (int k = 0; k < 300; ++k) {
+    Frame f = frame_at(k, body.pose(0.1 * k) * ppm::se3_exp(normal6(rng, 1e-3, 5e-4)));
+    for (const auto& exact : body.samples(0.1 * (k - 1), 0.1 * k, 0.01)) f.imu.push_back(imu.measure(exact, 0.01));
+    frames.push_back(f);
+  }
+  const auto start = ppm::parse_yaml("{gyro_noise: 1e-3, accel_noise: 0.1, sigma_t: 0.01, sigma_r: 0.01, gyro_walk: 1e-5, accel_walk: 1e-4}", "test");
+  const auto fitted =
+      ppm::likeliest(ppm::test::builtin(), "motion.imu", start, {"gyro_noise", "accel_noise", "sigma_t", "sigma_r"}, frames);
+  CHECK(std::stod(fitted.find("gyro_noise")->text()) == Approx(3e-3).epsilon(0.25));
+  CHECK(std::stod(fitted.find("accel_noise")->text()) == Approx(3e-2).epsilon(0.4));
+  CHECK(std::stod(fitted.find("sigma_t")->text()) == Approx(1e-3).epsilon(0.25));
+  CHECK(std::stod(fitted.find("sigma_r")->text()) == Approx(5e-4).epsilon(0.4));
+}

@@ -161,13 +161,34 @@ TEST_CASE("a particle that was found elsewhere begins anew with its velocity") {
     run.tick(frame_of(run.body, k));
     run.settle(k);
   }
-  Pose away = camera_pose(run.body, 9);
-  away.translation().x() += 3;
-  run.h.belief().correct(0, away);
-  run.tick(frame_of(run.body, 10));
-  CHECK(run.metric("restarts") == 1);
-  CHECK(run.prior().T_map_camera.translation().x() > camera_pose(run.body, 10).translation().x() + 2.5);
-  CHECK(run.prior().covariance.topLeftCorner<3, 3>().trace() > 3 * 0.002);
+  const auto away = [&](int k) {
+    Pose T = camera_pose(run.body, k);
+    T.translation().x() += 3;
+    return T;
+  };
+  const auto follows = [&](int k) { return (run.prior().T_map_camera.translation() - away(k).translation()).norm() < 0.2; };
+  SECTION("at once where the belief was lost") {
+    run.h.belief().lost = true;
+    run.h.belief().correct(0, away(9));
+    run.tick(frame_of(run.body, 10));
+    CHECK(run.metric("restarts") == 1);
+    CHECK(follows(10));
+    CHECK(run.prior().covariance.topLeftCorner<3, 3>().trace() > 3 * 0.002);
+    run.h.belief().lost = false;  // found elsewhere in this frame
+    run.h.belief().correct(0, camera_pose(run.body, 10));
+    run.tick(frame_of(run.body, 11));
+    CHECK(run.metric("restarts") == 1);
+    run.tick(frame_of(run.body, 12));
+    CHECK(run.metric("restarts") == 0);
+  }
+  SECTION("else after some frames in a row, until which its own motion is believed") {
+    for (int k = 9; k < 15; ++k) {
+      run.h.belief().correct(0, away(k));
+      run.tick(frame_of(run.body, k + 1));
+      CHECK(run.metric("restarts") == (k == 14 ? 1 : 0));
+      CHECK(follows(k + 1) == (k == 14));
+    }
+  }
 }
 
 TEST_CASE("inertial samples that are missing, out of order or broken are refused, with the frame") {
