@@ -6,8 +6,8 @@ namespace ppm {
 
 /// What is not known when an inertial unit begins to be followed: standard deviations.
 struct ImuStart {
-  double speed = 0.5;        ///< m/s, of the body, along each axis
-  double accel = 0.5;        ///< m/s^2, of the body: it tilts the vertical that is taken from the first samples
+  double speed = 0.2;        ///< m/s, of the body, along each axis
+  double accel = 0.3;        ///< m/s^2, of the body: it tilts the vertical that is taken from the first samples
   double gyro_bias = 0.02;   ///< rad/s
   double accel_bias = 0.1;   ///< m/s^2
 };

@@ -6,8 +6,16 @@
 
 namespace ppm {
 
+namespace {
+constexpr double kFloor = 1e-12;
+}  // namespace
+
+Matrix6 MotionPrior::information() const {
+  const Matrix6 floored = covariance + kFloor * Matrix6::Identity();
+  return floored.llt().solve(Matrix6::Identity());
+}
+
 double MotionPrior::log_density(const Pose& T) const {
-  constexpr double kFloor = 1e-12;
   const Eigen::LLT<Matrix6> root(covariance + kFloor * Matrix6::Identity());
   const Twist whitened = root.matrixL().solve(offset(T));
   const double log_root = root.matrixLLT().diagonal().array().log().sum();

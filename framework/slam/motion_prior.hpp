@@ -16,11 +16,17 @@ struct MotionPrior {
   /// xi of a pose, and its log density. A covariance without an inverse is given a floor of (1 um)^2, (1 urad)^2.
   Twist offset(const Pose& T) const { return se3_log(T_map_camera.inverse() * T); }
   double log_density(const Pose& T) const;
+  /// Inverse of the covariance, with the same floor.
+  Matrix6 information() const;
 };
 void save(RecordWriter& out, const MotionPrior& prior);
 void load(RecordReader& in, MotionPrior& prior);
 
 /// The column of a belief that holds each particle's MotionPrior of this frame; with it goes the facet "motion.prior".
 constexpr const char* kMotionPriorColumn = "motion.prior";
+
+/// The column (Matrix6) of what the image alone said of each particle's pose in this frame, where a node laid one onto the
+/// other: information of the pose's twist, 1/m^2, 1/rad^2; zero where it said nothing. Motion models learn from no more.
+constexpr const char* kMotionSeenColumn = "motion.seen";
 
 }  // namespace ppm

@@ -226,9 +226,12 @@ class AlignedMotion final : public Module {
   /// Each particle's draw and weight.
   void settle(Context& context) {
     auto& particles = *belief;
+    auto& seen = particles.column<Matrix6>(kMotionSeenColumn);
     context.workers().for_each(particles.size(), [&](std::size_t i, int) {
+      seen[i].setZero();
       if (!found_[i].usable) return;
       const auto& at = found_[i].at;
+      seen[i] = at.information - prior(i).information();
       const Eigen::LLT<Matrix6> root(at.information);
       Twist z = Twist::Zero();
       Rng rng = context.rng("draw", i);

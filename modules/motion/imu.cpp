@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -67,8 +68,8 @@ class ImuMotionModel final : public MotionModel {
     check_samples(*frame, begin_s_);
     distance_.assign(particles.size(), 0.0);
     T_base_camera_ = frame->T_base_camera;
-    const Eigen::Matrix<double, 6, 6> to_base = adjoint(T_base_camera_);
-    settled_noise_ = to_base * pose_noise_.covariance() * to_base.transpose();
+    to_base_ = adjoint(T_base_camera_);
+    settled_noise_ = to_base_ * pose_noise_.covariance() * to_base_.transpose();
     settle(context);
     const auto last = before_.empty() ? std::nullopt : std::optional(before_.back());
     motion_ = preintegrate(frame->imu, last, begin_s_, frame->stamp_s, mean_bias(), noise_);
@@ -98,7 +99,8 @@ class ImuMotionModel final : public MotionModel {
   void check_samples(const Frame& now, double begin_s) const;
   ImuBias mean_bias() const;
   void settle(Context& context);
-  bool settle(ImuFilter& filter, const Pose& T_map_base, double& distance) const;
+  bool settle(ImuFilter& filter, const Pose& T_map_base, const Matrix6& noise, double& distance) const;
+  Matrix6 noise_of_seen(const Matrix6& information) const;
 
   ImuNoise noise_;
   ImuStart start_;
@@ -112,6 +114,7 @@ class ImuMotionModel final : public MotionModel {
   Column<ImuFilter>* filters_ = nullptr;
   double begin_s_ = 0;
   Pose T_base_camera_ = Pose::Identity();
+  Matrix6 to_base_ = Matrix6::Identity();    // a twist of the camera as one of the body
   Matrix6 settled_noise_ = Matrix6::Zero();  // of a settled pose, as a twist of the body
   ImuMotion motion_;
   std::vector<double> distance_;
@@ -168,9 +171,12 @@ ImuBias ImuMotionModel::mean_bias() const {
 void ImuMotionModel::settle(Context& context) {
   auto& particles = *belief;
   std::vector<char> restarted(particles.size(), 0);
+  const bool looked = particles.columns().contains(kMotionSeenColumn);
+  const auto* seen = looked ? &particles.column<Matrix6>(kMotionSeenColumn) : nullptr;
   context.workers().for_each(particles.size(), [&](std::size_t i, int) {
     const Pose T_map_base = particles.trajectory[i].last().T_map_camera * T_base_camera_.inverse();
-    restarted[i] = settle((*filters_)[i], T_map_base, distance_[i]);
+    const Matrix6 noise = seen ? settled_noise_ + noise_of_seen((*seen)[i]) : settled_noise_;
+    restarted[i] = settle((*filters_)[i], T_map_base, noise, distance_[i]);
   });
   double restarts = 0;
   for (const char r : restarted) restarts += r;
@@ -184,14 +190,23 @@ void ImuMotionModel::settle(Context& context) {
   context.metric("restarts", restarts);
 }
 
+/// Along a bare wall the pose that a frame settles on is a draw of the prior: what the image did not say teaches nothing.
+Matrix6 ImuMotionModel::noise_of_seen(const Matrix6& information) const {
+  constexpr double kLeast = 1e-2;  // of (10 m)^2, (10 rad)^2: nothing
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(information);
+  const Twist variance = eigen.eigenvalues().cwiseMax(kLeast).cwiseInverse();
+  const Matrix6 axes = to_base_ * eigen.eigenvectors();
+  return axes * variance.asDiagonal() * axes.transpose();
+}
+
 /// Whether the particle was moved by other means than motion: its velocity is then unknown again.
-bool ImuMotionModel::settle(ImuFilter& filter, const Pose& T_map_base, double& distance) const {
+bool ImuMotionModel::settle(ImuFilter& filter, const Pose& T_map_base, const Matrix6& noise, double& distance) const {
   if (!filter.begun()) {
     filter.begin(begin_s_, T_map_base, before_.empty() ? frame->imu : before_, settled_noise_, start_);
     return false;
   }
-  distance = filter.distance(T_map_base, settled_noise_);
-  filter.correct_at_most(T_map_base, settled_noise_, gate_);
+  distance = filter.distance(T_map_base, noise);
+  filter.correct_at_most(T_map_base, noise, gate_);
   const bool followed = std::abs(filter.stamp_s - begin_s_) < kSameTime_s;
   if (followed && !belief->lost && !was_lost_ && filter.slips <= slips_) return false;
   filter.restart(begin_s_, T_map_base, settled_noise_, start_);
