@@ -52,8 +52,9 @@ void plot(const PlotOptions& o) {
     columns.push_back(find_column(table, name));
     if (!columns.back().empty()) continue;
     const auto nearest = did_you_mean(name, column_names(table));
-    throw ConfigError(Place{file.string()}, fmt::format("has no column '{}'{}", name,
-                                                        nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
+    throw ConfigError(
+        Place{file.string()},
+        fmt::format("has no column '{}'{}", name, nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
   }
   if (columns.empty()) columns = telling(table);
   std::vector<PlotLine> lines;
@@ -70,14 +71,19 @@ void plot(const PlotOptions& o) {
 void add_plot(CLI::App& app) {
   auto* command = app.add_subcommand("plot", "Draws what a run recorded frame by frame, as PNG");
   auto o = std::make_shared<PlotOptions>();
-  command->add_option("run", o->run, "Folder of a run, with metrics.csv (sink.metrics)")->required()->type_name("FOLDER");
+  command->add_option("run", o->run, "Folder of a run, with metrics.csv (sink.metrics)")
+      ->required()
+      ->type_name("FOLDER");
   command
-      ->add_option("columns", o->columns,
-                   "Columns of metrics.csv, by full name (weigh.ess) or its last part (ess); by default what tells how the "
-                   "filter does")
+      ->add_option(
+          "columns", o->columns,
+          "Columns of metrics.csv, by full name (weigh.ess) or its last part (ess); by default what tells how the "
+          "filter does")
       ->type_name("COLUMN...");
   command->add_option("--out", o->out, "The picture (default: metrics.png in the run's folder)")->type_name("FILE");
-  command->add_option("--width", o->cols, "Of the picture, pixels")->check(CLI::Range(300, 10000))->capture_default_str();
+  command->add_option("--width", o->cols, "Of the picture, pixels")
+      ->check(CLI::Range(300, 10000))
+      ->capture_default_str();
   command->footer("Frames in which the belief was lost are shaded.");
   command->callback([o] { plot(*o); });
 }

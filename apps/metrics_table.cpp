@@ -32,7 +32,8 @@ MetricsTable read_metrics(const std::filesystem::path& file) {
   std::string line;
   std::getline(in, line);
   const auto names = fields_of(line);
-  if (names.empty() || names[0] != "frame") throw DataError(to_string(Place{file.string(), 1, 1}), "is no table of metrics");
+  if (names.empty() || names[0] != "frame")
+    throw DataError(to_string(Place{file.string(), 1, 1}), "is no table of metrics");
   MetricsTable table;
   for (std::size_t k = 1; k < names.size(); ++k) table[names[k]];
   for (int number = 2; std::getline(in, line); ++number) {

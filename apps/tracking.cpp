@@ -38,8 +38,9 @@ Tracking tracking_of(const Graph& graph, const Metrics& metrics) {
 std::string tracking_line(const Tracking& t) {
   if (t.judge.empty()) return "";
   if (t.lost_frames == 0) return "  tracking    never lost\n";
-  return fmt::format("  LOST        {} of {} frames, the first is {}, at most {} in a row; {} at the end\n", t.lost_frames,
-                     t.frames, *t.first_lost, t.longest_lost, t.lost_at_end ? "STILL LOST" : "found again");
+  return fmt::format("  LOST        {} of {} frames, the first is {}, at most {} in a row; {} at the end\n",
+                     t.lost_frames, t.frames, *t.first_lost, t.longest_lost,
+                     t.lost_at_end ? "STILL LOST" : "found again");
 }
 
 }  // namespace ppm

@@ -67,7 +67,8 @@ std::vector<IndexPair> overlapping(const std::vector<StampedPose>& poses, const 
     for (std::size_t j = i + 1; j < images.size(); ++j) {
       const auto gap = poses[j].frame - poses[i].frame;
       const bool wanted = settings.form == RevisitSettings::Gap::exactly ? gap == settings.gap : gap >= settings.gap;
-      if (wanted && overlap(images[i], images[j]) >= settings.overlap && overlap(images[j], images[i]) >= settings.overlap)
+      if (wanted && overlap(images[i], images[j]) >= settings.overlap &&
+          overlap(images[j], images[i]) >= settings.overlap)
         found[i].emplace_back(i, j);
     }
   });

@@ -7,7 +7,8 @@ namespace ppm {
 void Innovation::add(const PixelBlock& pixels) {
   for (std::size_t i = 0; i < pixels.size(); i += kEvery) {
     if (!pixels.hit(i)) continue;
-    const double cosine = static_cast<double>(pixels.expected.cosine[i]), across = static_cast<double>(pixels.lateral[i]);
+    const double cosine = static_cast<double>(pixels.expected.cosine[i]),
+                 across = static_cast<double>(pixels.lateral[i]);
     const double variance = static_cast<double>(pixels.variance[i]) + static_cast<double>(pixels.expected.variance[i]) +
                             across * across * (1 - cosine * cosine) / (cosine * cosine);
     const double residual = static_cast<double>(pixels.residual(i)), square = residual * residual / variance;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "framework/core/error.hpp"
@@ -18,14 +17,14 @@ constexpr double kSameSurface_m = 0.1, kSamePlace_m = 0.2;
 constexpr double kLeastCosine = 0.5;  // between optical axes
 constexpr int kOverlapColumns = 16, kErrorColumns = 80;
 
-/// The smallest and the largest depth around a pixel, itself included; nothing at the border of the image or of what is
-/// measured.
+/// Whether a pixel and its eight neighbours are all measured, within kJump_m.
 bool is_smooth(const std::vector<float>& depth, const Camera& camera, int x, int y) {
   if (x == 0 || y == 0 || x == camera.cols - 1 || y == camera.rows - 1) return false;
   float least = std::numeric_limits<float>::infinity(), most = -least;
   for (int v = y - 1; v <= y + 1; ++v)
     for (int u = x - 1; u <= x + 1; ++u) {
-      const float z = depth[static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.cols) + static_cast<std::size_t>(u)];
+      const float z =
+          depth[static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.cols) + static_cast<std::size_t>(u)];
       if (std::isnan(z)) return false;
       least = std::min(least, z);
       most = std::max(most, z);
@@ -39,7 +38,8 @@ struct Projected {
   double depth;  // m
 };
 
-std::optional<Projected> project(const Pose& T_to_from, const Camera& from, const Camera& to, int x, int y, double depth) {
+std::optional<Projected> project(const Pose& T_to_from, const Camera& from, const Camera& to, int x, int y,
+                                 double depth) {
   const Eigen::Vector3d p = T_to_from * (depth * from.ray(x, y));
   if (!(p.z() > 0)) return std::nullopt;
   const Eigen::Vector2d pixel = to.project(p);
@@ -83,7 +83,8 @@ double overlap(const PosedImage& from, const PosedImage& to) {
     ++points;
     const auto seen = project(T_to_from, from.camera(), to.camera(), x, y, static_cast<double>(z));
     if (!seen) return;
-    const auto there = to.depth(static_cast<int>(std::lround(seen->pixel.x())), static_cast<int>(std::lround(seen->pixel.y())));
+    const auto there =
+        to.depth(static_cast<int>(std::lround(seen->pixel.x())), static_cast<int>(std::lround(seen->pixel.y())));
     met += std::abs(static_cast<double>(there) - seen->depth) <= kSamePlace_m;  // false where nothing is measured
   });
   return points > 0 ? static_cast<double>(met) / static_cast<double>(points) : 0;

@@ -13,7 +13,8 @@ namespace ppm {
 namespace {
 
 constexpr double kLeft = 76, kRight = 16, kAbove = 22, kBelow = 6, kText = 9, kFoot = 30;
-const Color kInk(0.15f, 0.16f, 0.18f), kGrid(0.88f, 0.89f, 0.90f), kCurve(0.09f, 0.36f, 0.62f), kShade(1.0f, 0.85f, 0.82f);
+const Color kInk(0.15f, 0.16f, 0.18f), kGrid(0.88f, 0.89f, 0.90f), kCurve(0.09f, 0.36f, 0.62f),
+    kShade(1.0f, 0.85f, 0.82f);
 
 /// Values and where they are drawn, along one axis.
 struct Axis {
@@ -41,7 +42,8 @@ void shade(RgbImage& image, double x0, double x1, double y0, double y1) {
   for (int y = static_cast<int>(y0); y <= static_cast<int>(y1); ++y)
     for (int x = static_cast<int>(x0); x <= static_cast<int>(x1); ++x)
       std::copy(bytes.begin(), bytes.end(),
-                &image.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.cols) + static_cast<std::size_t>(x))]);
+                &image.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.cols) +
+                                static_cast<std::size_t>(x))]);
 }
 
 void draw_panel(RgbImage& image, const PlotLine& line, const Axis& frames, const Axis& values,
@@ -73,11 +75,13 @@ std::vector<double> round_values(double low, double high, int count) {
   for (double factor : {5.0, 2.0, 1.0})
     if (factor * power >= rough) step = factor * power;
   std::vector<double> values;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) values.push_back(k * step + 0.0);  // no -0
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
+    values.push_back(k * step + 0.0);  // no -0
   return values;
 }
 
-RgbImage line_plot(const std::vector<PlotLine>& lines, const std::vector<PlotSpan>& shaded, const PlotSettings& settings) {
+RgbImage line_plot(const std::vector<PlotLine>& lines, const std::vector<PlotSpan>& shaded,
+                   const PlotSettings& settings) {
   PPM_CHECK(!lines.empty(), "a plot of no line");
   const int rows = static_cast<int>(lines.size()) * settings.panel_rows + static_cast<int>(kFoot);
   RgbImage image{settings.cols, rows, {}};

@@ -2,7 +2,8 @@
 
 namespace ppm {
 
-void draw_stroke(RgbImage& image, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double width_px, const Color& color) {
+void draw_stroke(RgbImage& image, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double width_px,
+                 const Color& color) {
   using Point = Eigen::Vector2d;
   const double reach = width_px / 2 + 1;
   const int x0 = std::max(static_cast<int>(std::min(a.x(), b.x()) - reach), 0);
