@@ -22,6 +22,26 @@ void SurfaceView::build(const Prediction& view) {
       texels[p] = {point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z(), view.variance[p], 1};
     }
   }
+  bend();
+}
+
+void SurfaceView::bend() {
+  flat_ = texels;
+  const auto next_row = static_cast<std::size_t>(camera.cols);
+  for (int row = 1; row + 1 < camera.rows; ++row) {
+    for (int col = 1; col + 1 < camera.cols; ++col) {
+      const auto at = static_cast<std::size_t>(row) * next_row + static_cast<std::size_t>(col);
+      const Texel &left = flat_[at - 1], &right = flat_[at + 1], &above = flat_[at - next_row], &below = flat_[at + next_row];
+      if (left.hit * right.hit * above.hit * below.hit == 0) continue;
+      const Eigen::Vector3f across(right.x - left.x, right.y - left.y, right.z - left.z);
+      const Eigen::Vector3f down(below.x - above.x, below.y - above.y, below.z - above.z);
+      Texel& t = texels[at];
+      const Eigen::Vector3f element(t.nx, t.ny, t.nz), cross = across.cross(down);
+      const Eigen::Vector3f normal = (cross.dot(element) < 0 ? -1.0f : 1.0f) * cross.normalized();
+      if (!(normal.dot(element) > kBend)) continue;
+      t.nx = normal.x(), t.ny = normal.y(), t.nz = normal.z();
+    }
+  }
 }
 
 }  // namespace ppm

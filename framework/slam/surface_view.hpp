@@ -19,6 +19,13 @@ struct SurfaceView {
 
   /// Of a view whose arrays are filled. Keeps capacity.
   void build(const Prediction& view);
+
+ private:
+  /// Turns normals from those of the map's elements to those of the described surface, as far as its neighbours in the view
+  /// show it: not across the edges of things, where the two differ by more than kBend.
+  void bend();
+  static constexpr float kBend = 0.85f;  // cosine
+  std::vector<Texel> flat_;
 };
 
 }  // namespace ppm
