@@ -48,6 +48,11 @@ void ViewAligner::declare(Params& params) {
       .unit("m")
       .range(0, 1)
       .doc("Standard deviation of the map's surface beside that of its texels.");
+  params.add("hold_least", hold_least_)
+      .range(0, 1)
+      .doc(
+          "A direction is held by the view where moving by 1 m (or turning by 1 m at the points' range) changes the "
+          "residuals' mean square by more than this, m^2; others are left to the motion prior. 0: all count as they are.");
   params.add("alpha", alpha_)
       .range(0, 1)
       .above(0)
@@ -99,7 +104,8 @@ void ViewAligner::descend(std::size_t k, const Level& how, const SurfaceView& vi
   constexpr double kSmall = 1e-5;  // m and rad: what a further step would not be worth
   const Matrix6 P = information(prior);
   for (int step = 0; step < how.steps; ++step) {
-    const AlignmentSum sum = align_sum(measured_.levels[k], view, at.T_map_camera, how.gate);
+    AlignmentSum sum = align_sum(measured_.levels[k], view, at.T_map_camera, how.gate);
+    if (hold_least_ > 0) sum.drop_weak_directions(hold_least_);
     at.information = alpha_ * sum.H + P;
     at.likelihood = likelihood(sum);
     const Twist x = at.information.ldlt().solve(alpha_ * sum.b - P * prior.offset(at.T_map_camera));

@@ -1,5 +1,6 @@
 #include "framework/slam/view_alignment.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -61,9 +62,9 @@ class Association {
 /// The upper triangle of H, b and the cost, summed in single precision over a short run of points and then in double.
 struct Run {
   static constexpr std::size_t kPoints = 256;
-  float h[21] = {}, b[6] = {}, cost = 0;
+  float h[21] = {}, b[6] = {}, cost = 0, weights = 0, range2 = 0;
 
-  void add(const float* J, float r, float weight) {
+  void add(const float* J, float r, float weight, float squared_range) {
     int k = 0;
     for (int i = 0; i < 6; ++i) {
       const float wj = weight * J[i];
@@ -71,6 +72,8 @@ struct Run {
       b[i] -= wj * r;
     }
     cost += weight * r * r;
+    weights += weight;
+    range2 += weight * squared_range;
   }
   void flush(AlignmentSum& sum) {
     int k = 0;
@@ -79,6 +82,8 @@ struct Run {
       sum.b[i] += static_cast<double>(b[i]);
     }
     sum.cost += static_cast<double>(cost);
+    sum.weight += static_cast<double>(weights);
+    sum.squared_range += static_cast<double>(range2);
     *this = {};
   }
 };
@@ -114,11 +119,23 @@ AlignmentSum align_sum(const MeasuredSurface::Level& level, const SurfaceView& v
     weight /= 1.0f + cauchy * weight * r * r;
     const Eigen::Vector3f arm = p.cross(n);
     const float J[6] = {n.x(), n.y(), n.z(), arm.x(), arm.y(), arm.z()};
-    run.add(J, r, weight);
+    run.add(J, r, weight, p.squaredNorm());
   }
   run.flush(sum);
   sum.H.triangularView<Eigen::StrictlyLower>() = sum.H.transpose();
   return sum;
+}
+
+void AlignmentSum::drop_weak_directions(double least) {
+  if (!(weight > 0)) return;
+  const double range = std::sqrt(squared_range / weight);
+  Twist scale = Twist::Ones();
+  scale.tail<3>().setConstant(1 / range);
+  const Eigen::SelfAdjointEigenSolver<Matrix6> directions(scale.asDiagonal() * H * scale.asDiagonal());
+  const Twist kept = (directions.eigenvalues() / (weight * least) - Twist::Ones()).cwiseMax(0.0).cwiseMin(1.0);
+  const Matrix6 V = scale.cwiseInverse().asDiagonal() * directions.eigenvectors();
+  b = V * kept.asDiagonal() * directions.eigenvectors().transpose() * scale.asDiagonal() * b;
+  H = V * kept.cwiseProduct(directions.eigenvalues()).asDiagonal() * V.transpose();
 }
 
 AlignmentFit alignment_fit(const MeasuredSurface::Level& level, const SurfaceView& view, const Pose& T_map_camera) {

@@ -22,9 +22,17 @@ struct AlignmentSum {
   Matrix6 H = Matrix6::Zero();  ///< sum w J J^T, 1/m^2, 1/m, 1
   Twist b = Twist::Zero();      ///< - sum w J r
   double cost = 0;              ///< sum of w r^2 (of the kernel's weights)
+  double weight = 0;            ///< sum of w, 1/m^2
+  double squared_range = 0;     ///< sum of w |p|^2: how far the points are from the camera
   std::size_t points = 0;       ///< of the level
   std::size_t seen = 0;         ///< that fall onto a surface of the view
   std::size_t inliers = 0;      ///< within the gate
+
+  /// Takes out of H and b what they say of directions that the surface does not hold: where the weighted mean square of a
+  /// residual's change, per unit of the twist (rotations at the points' range), is below `least`, it is but the noise of the
+  /// normals, and pulls towards no motion. From there to twice that a part of it is kept.
+  /// Source: Zhang, Kaess, Singh, "On degeneracy of optimization-based state estimation problems", ICRA 2016.
+  void drop_weak_directions(double least);
 };
 
 /// Compares a level's points at the pose T_map_camera with a view. r = n . (q - v): q the point, v and n the surface where
