@@ -56,7 +56,7 @@ rest_slope, rest_error = slope(block_rest)
 print("# Time and memory over a long run\n")
 print("Written by `bash docs/results/long_run.sh`: SLAM on all images of `kitchen`, "
       f"{run['frames']} frames, {run['particles']} particles, {run['threads']} threads; "
-      "`configs/kitchen_slam.yaml` with `prediction.raster`, no image held out, without the sinks that draw. Times of frames are those of "
+      "`configs/kitchen_slam_motion.yaml` with `prediction.raster`, no image held out, without the sinks that draw. Times of frames are those of "
       "all threads on their processors, memory in use is what was allocated and not given back (`ppm run --times`); maps are counted by "
       "`sink.metrics`.\n")
 print("![Time and memory by frame](../images/long_run.png)\n")

@@ -11,7 +11,7 @@ page=docs/results/long_run.md
 mkdir -p "$out"
 trap 'rm -f "$page.part" "$out/page.png"' EXIT
 
-sed -e 's/prediction.embree/prediction.raster/; /name: export,/d; /name: image,/d; /name: mesh,/d' configs/kitchen_slam.yaml >"$out/graph.yaml"
+sed -e 's/prediction.embree/prediction.raster/; /name: export,/d; /name: image,/d; /name: mesh,/d' configs/kitchen_slam_motion.yaml >"$out/graph.yaml"
 options=(--set camera.holdout=none --set table.memory_every=5)
 echo "ppm run $out/graph.yaml ${options[*]} --times" >&2
 "$ppm" run "$out/graph.yaml" "${options[@]}" --times --out "$out/run" --force >"$out/run.log" 2>&1 || { cat "$out/run.log" >&2; exit 1; }

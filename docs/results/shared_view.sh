@@ -39,7 +39,7 @@ sed '/^<!-- tables -->$/q' "$page" >"$page.part"
   echo
   echo "## A filter with 1,000 particles"
   echo
-  echo "\`configs/kitchen_slam_shared.yaml\` and, for comparison, \`configs/kitchen_slam.yaml\`, \`--set camera.last=299\`; $(nproc) threads."
+  echo "\`configs/kitchen_slam_shared.yaml\` and, for comparison, \`configs/kitchen_slam_motion.yaml\`, \`--set camera.last=299\`; $(nproc) threads."
   echo
   echo "| graph | seed | frames | particles | ATE, m | RPE, m / deg | held-out coverage / median, mm | look and weigh, ms a frame | exact views and update | frames/s |"
   echo "|---|---|---|---|---|---|---|---|---|---|"

@@ -32,7 +32,10 @@ void MapEditor::tick(Context& context) {
     map = edit(context, leaders[k], std::move(map), worker);
     PPM_CHECK(map, "the edit of particle {} gave no map", leaders[k]);
   });
-  for (std::size_t i = 0; i < leader.size(); ++i) particles.map[i] = particles.map[leader[i]];
+  for (std::size_t i = 0; i < leader.size(); ++i) {
+    particles.map[i] = particles.map[leader[i]];
+    edited(i, leader[i]);
+  }
   particles.prediction.assign(particles.size(), nullptr);
 }
 

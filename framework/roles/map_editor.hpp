@@ -26,6 +26,9 @@ class MapEditor : public Module {
   /// map (and no sink keeps a snapshot), it is the only handle and its memory may be reused: a deferred prediction is to
   /// be completed before. Called from any worker.
   virtual MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) = 0;
+  /// After all edits, for each particle in order: the one whose edit gave it its map (itself, or the one that it agrees
+  /// with). For columns of the editor's own. Called from one thread.
+  virtual void edited(std::size_t /*particle*/, std::size_t /*by*/) {}
 
   void tick(Context& context) final;
 

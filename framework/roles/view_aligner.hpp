@@ -71,7 +71,7 @@ class ViewAligner {
 
   int stride_ = 2;
   int step_fine_ = 2;
-  double jump_ = 0.05, distance_ = 0.06, normal_cosine_ = 0.85, cauchy_ = 2, model_sigma_ = 0.001, alpha_ = 0.1, hold_least_ = 0.005;
+  double jump_ = 0.05, distance_ = 0.06, normal_cosine_ = 0.85, cauchy_ = 2, model_sigma_ = 0.001, alpha_ = 0.1, hold_least_ = 0.0015;
   double outliers_most_ = 0.10, outliers_lost_ = 0.4, inliers_least_ = 0.15;
   Camera camera_;
   MeasuredSurface measured_;

@@ -1,4 +1,7 @@
+#include <cstdint>
 #include <memory>
+#include <numbers>
+#include <vector>
 
 #include "framework/graph/registry.hpp"
 #include "framework/roles/map_editor.hpp"
@@ -36,6 +39,8 @@ class PpmBayesUpdate final : public MapEditor {
     settings_.share();
     seen_.resize(context.threads());
     scratch_.resize(context.threads());
+    keyframed_.assign(belief->size(), 0);
+    keyframe_poses_ = &belief->column<Pose>(kKeyframe);
   }
 
   MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) override {
@@ -43,14 +48,19 @@ class PpmBayesUpdate final : public MapEditor {
     const PredictionHandle view = belief->prediction[particle];
     PPM_CHECK(view, "particle {} has no prediction", particle);
     auto mesh = std::static_pointer_cast<const PpmMap>(std::move(map));
-    if (number_ % keyframe_every_ != 0 && !brings_new(*mesh, *view, seen_[worker])) {
+    if (number_ % keyframe_every_ != 0 && !has_moved(particle) && !brings_new(*mesh, *view, seen_[worker])) {
       if (between_ == Between::nothing) return mesh;
       return update_visible_texels(std::move(mesh), *frame, view->stride, view->T_map_camera, seen_[worker],
                                    settings_.texels);
     }
+    keyframed_[particle] = 1;
     const PredictionHandle whole = completed(view, completed_, context.workers());
     return update_map(std::move(mesh), *frame, *whole, settings_, number_ / keyframe_every_, context.workers(),
                       scratch_[worker]);
+  }
+
+  void edited(std::size_t particle, std::size_t by) override {
+    if (keyframed_[by]) belief->column<Pose>(kKeyframe)[particle] = belief->pose[particle];
   }
 
   void save(RecordWriter& out) const override { out.add(mapped_); }
@@ -58,6 +68,12 @@ class PpmBayesUpdate final : public MapEditor {
 
  private:
   enum class Between { texels, nothing };
+  static constexpr const char* kKeyframe = "map_update.keyframe";  // column: where the particle's last keyframe was
+
+  bool has_moved(std::size_t particle) const {
+    const Pose since = (*keyframe_poses_)[particle].inverse() * belief->pose[particle];
+    return since.translation().norm() > keyframe_distance_ || rotation_angle(since) > keyframe_angle_;
+  }
 
   /// Whether the image asks for a keyframe between the regular ones. Leaves the faces in view in `seen`, where they
   /// are needed.
@@ -250,6 +266,14 @@ class PpmBayesUpdate final : public MapEditor {
         .doc(
             "What the frames between keyframes change: texels lets the offsets of the faces in view read the image (in "
             "the gather form), nothing leaves the map as it is.");
+    params_.add("keyframe_distance", keyframe_distance_)
+        .unit("m")
+        .range(0, 1000)
+        .doc("A frame between keyframes becomes one, for the particles that are farther than this from their last one ...");
+    params_.add("keyframe_angle", keyframe_angle_)
+        .unit("rad")
+        .range(0, std::numbers::pi)
+        .doc("... or turned by more than this.");
     params_.add("keyframe_misses", keyframe_misses_)
         .range(0, 1)
         .doc(
@@ -265,7 +289,9 @@ class PpmBayesUpdate final : public MapEditor {
   bool learns_ = true;       // from this one
   std::int64_t keyframe_every_ = 1;
   Between between_ = Between::texels;
-  double keyframe_misses_ = 0.1;
+  double keyframe_misses_ = 0.1, keyframe_distance_ = 0.1, keyframe_angle_ = 10 * std::numbers::pi / 180;
+  std::vector<std::uint8_t> keyframed_;                // by particle, of this frame
+  const Column<Pose>* keyframe_poses_ = nullptr;  // of this frame
   PredictionPool completed_;
   PerWorker<VisibleFaces> seen_;
   PerWorker<UpdateScratch> scratch_;
