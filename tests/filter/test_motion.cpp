@@ -6,6 +6,7 @@
 #include "framework/core/error.hpp"
 #include "framework/graph/harness.hpp"
 #include "framework/slam/frame.hpp"
+#include "framework/slam/motion_prior.hpp"
 #include "tests/support/registry.hpp"
 
 namespace {
@@ -208,4 +209,29 @@ TEST_CASE("motion parameters are checked") {
   CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{sigma_r: -1}"), ppm::ConfigError);
   CHECK_THROWS_AS(ppm::Harness(ppm::test::builtin(), "motion.constant_velocity", "{velocity_decay: 1.5}"),
                   ppm::ConfigError);
+}
+
+TEST_CASE("learnt noise is that of the model's own errors on the path") {
+  // A path whose steps differ by 2 cm to and fro: constant velocity misses each by 4 cm.
+  ppm::Harness given(ppm::test::builtin(), "motion.constant_velocity", "{sigma_t: 1 cm, sigma_r: 1 deg}");
+  ppm::Harness learnt(ppm::test::builtin(), "motion.constant_velocity",
+                      "{sigma_t: 1 cm, sigma_r: 1 deg, noise_steps: 6, noise_prior: 1}");
+  for (auto* h : {&given, &learnt}) {
+    auto& belief = h->belief();
+    belief.init(1, Pose::Identity(), nullptr);
+    double x = 0;
+    for (int k = 0; k < 9; ++k) {
+      x += k % 2 ? 0.02 : -0.02;
+      belief.extend(0, {k, 0.1 * k, Pose(Eigen::Translation3d(x, 0, 0))});
+    }
+    h->input<ppm::Frame>("frame", frame_at(9, 0.9));
+    h->tick();
+  }
+  auto variance = [](ppm::Harness& h, int k) {
+    return h.belief().column<ppm::MotionPrior>(ppm::kMotionPriorColumn)[0].covariance(k, k);
+  };
+  CHECK(variance(given, 0) == Approx(1e-4));
+  const double errors = 6 * 0.04 * 0.04 / 3;  // along one axis of three
+  CHECK(variance(learnt, 0) == Approx((1e-4 + errors) / 7).epsilon(0.01));
+  CHECK(variance(learnt, 3) < variance(given, 3));  // it never turned
 }
