@@ -76,7 +76,7 @@ PoseNoise PathMotion::learnt(const Trajectory& path) const {
     at = before;
   }
   // A path that jumped (lost, found again) is no measure of the next step.
-  constexpr double kMost = 10;
+  constexpr double kMost = 30;
   return {noise_scale_ * std::min(std::sqrt(t / weight), kMost * noise_.sigma_t),
           noise_scale_ * std::min(std::sqrt(r / weight), kMost * noise_.sigma_r)};
 }

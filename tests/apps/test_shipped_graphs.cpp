@@ -40,7 +40,7 @@ nlohmann::json runs_as_it_did(const Golden& golden) {
 }  // namespace
 
 TEST_CASE("room.yaml runs a few frames") {
-  runs_as_it_did({"room.yaml", {"--set", "init.particles=20"}, 0.04, 0.9, 30});
+  runs_as_it_did({"room.yaml", {}, 0.02, 0.9, 30});
 }
 
 TEST_CASE("room_color.yaml runs a few frames, and its colours are measured") {
@@ -56,7 +56,8 @@ TEST_CASE("the kitchen's graphs run a few frames") {
   const std::string path = "camera.path=" + data->string();
   runs_as_it_did({"kitchen_mapping.yaml", {"--set", path}, 1e-6, 0.9, 12});
   runs_as_it_did({"kitchen_mapping_paper.yaml", {"--set", path}, 1e-6, 0.88, 12});
-  runs_as_it_did({"kitchen_slam.yaml", {"--set", path, "--set", "init.particles=20"}, 0.03, 0.9, 25});
+  runs_as_it_did({"kitchen_slam.yaml", {"--set", path}, 0.02, 0.9, 20});
+  runs_as_it_did({"kitchen_slam_motion.yaml", {"--set", path, "--set", "init.particles=20"}, 0.03, 0.9, 25});
   runs_as_it_did({"kitchen_slam_color.yaml", {"--set", path, "--set", "init.particles=20"}, 0.03, 0.9, 25});
   runs_as_it_did({"kitchen_slam_shared.yaml", {"--set", path, "--set", "init.particles=50"}, 0.03, 0.7, 25});
   runs_as_it_did({"kitchen_slam_paper.yaml", {"--set", path, "--set", "init.particles=20"}, 0.1, 0.7, 100});
@@ -67,8 +68,8 @@ TEST_CASE("the simulated house's graphs run a few frames") {
   if (!data) return;
   const std::string file = "camera.file=" + data->string();
   runs_as_it_did({"house_mapping.yaml", {"--set", file}, 1e-6, 0.9, 20});
-  runs_as_it_did({"house_slam.yaml", {"--set", file, "--set", "init.particles=20"}, 0.06, 0.9, 40});
   runs_as_it_did({"house_slam_odometry.yaml", {"--set", file}, 0.02, 0.9, 25});
+  runs_as_it_did({"house_slam.yaml", {"--set", file}, 0.02, 0.9, 30});
 }
 
 TEST_CASE("sr4000_still.yaml maps a place from four images") {
