@@ -45,6 +45,13 @@ void MotionModel::tick(Context& context) {
 
 PathMotion::PathMotion(const PoseNoise& noise) : noise_(noise) {
   noise_.declare(params_, "noise added in each frame");
+  params_.add("noise_rate", noise_rate_hz_)
+      .unit("Hz")
+      .range(0, 1e6)
+      .doc(
+          "sigma_t and sigma_r are those of steps at this rate, and grow with a step's length to the power 1.5, as an "
+          "acceleration that is white noise makes them: the same numbers for cameras of any rate. 0 Hz: of every step, "
+          "whatever its length.");
   params_.add("noise_steps", noise_steps_)
       .range(0, 1000)
       .doc(
@@ -59,24 +66,31 @@ PathMotion::PathMotion(const PoseNoise& noise) : noise_(noise) {
 }
 
 MotionPrior PathMotion::expect(std::size_t, const Trajectory& path, const Frame& now) {
-  return {predict(path, now.stamp_s), (noise_steps_ > 0 ? learnt(path) : noise_).covariance()};
+  const PoseNoise noise = noise_steps_ > 0 ? learnt(path) : noise_;
+  const double grown = growth(now.stamp_s - path.last().stamp_s);
+  return {predict(path, now.stamp_s), PoseNoise{grown * noise.sigma_t, grown * noise.sigma_r}.covariance()};
+}
+
+double PathMotion::growth(double step_s) const {
+  return noise_rate_hz_ > 0 ? std::pow(std::max(step_s, 0.0) * noise_rate_hz_, 1.5) : 1;
 }
 
 PoseNoise PathMotion::learnt(const Trajectory& path) const {
-  // A path's first step is a start from rest: no model foresees it.
   double t = noise_prior_ * noise_.sigma_t * noise_.sigma_t, r = noise_prior_ * noise_.sigma_r * noise_.sigma_r;
   double weight = noise_prior_;
   Trajectory at = path;
+  // A path's first step is a start from rest: no model foresees it.
   for (int k = 0; k < noise_steps_ && at.length() > 2; ++k) {
     const Trajectory before = at.parent();
-    const Twist e = se3_log(predict(before, at.last().stamp_s).inverse() * at.last().T_map_camera);
+    const double grown = growth(at.last().stamp_s - before.last().stamp_s);
+    const Twist e = se3_log(predict(before, at.last().stamp_s).inverse() * at.last().T_map_camera) / std::max(grown, 1e-6);
     t += e.head<3>().squaredNorm() / 3;
     r += e.tail<3>().squaredNorm() / 3;
     weight += 1;
     at = before;
   }
   // A path that jumped (lost, found again) is no measure of the next step.
-  constexpr double kMost = 30;
+  constexpr double kMost = 10;
   return {noise_scale_ * std::min(std::sqrt(t / weight), kMost * noise_.sigma_t),
           noise_scale_ * std::min(std::sqrt(r / weight), kMost * noise_.sigma_r)};
 }

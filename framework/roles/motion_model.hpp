@@ -52,11 +52,14 @@ class PathMotion : public MotionModel {
   MotionPrior expect(std::size_t particle, const Trajectory& path, const Frame& now) final;
 
  private:
+  /// Of one step at noise_rate.
   PoseNoise learnt(const Trajectory& path) const;
+  /// How much larger the noise of a step is than that of one at noise_rate.
+  double growth(double step_s) const;
 
   PoseNoise noise_;
   int noise_steps_ = 0;
-  double noise_prior_ = 2, noise_scale_ = 1;
+  double noise_prior_ = 2, noise_scale_ = 1, noise_rate_hz_ = 0;
 };
 
 }  // namespace ppm

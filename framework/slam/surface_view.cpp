@@ -27,21 +27,27 @@ void SurfaceView::build(const Prediction& view) {
 
 void SurfaceView::bend() {
   flat_ = texels;
-  const auto next_row = static_cast<std::size_t>(camera.cols);
-  for (int row = 1; row + 1 < camera.rows; ++row) {
-    for (int col = 1; col + 1 < camera.cols; ++col) {
-      const auto at = static_cast<std::size_t>(row) * next_row + static_cast<std::size_t>(col);
-      const Texel &left = flat_[at - 1], &right = flat_[at + 1], &above = flat_[at - next_row], &below = flat_[at + next_row];
-      if (left.hit * right.hit * above.hit * below.hit == 0) continue;
-      const Eigen::Vector3f across(right.x - left.x, right.y - left.y, right.z - left.z);
-      const Eigen::Vector3f down(below.x - above.x, below.y - above.y, below.z - above.z);
-      Texel& t = texels[at];
-      const Eigen::Vector3f element(t.nx, t.ny, t.nz), cross = across.cross(down);
-      const Eigen::Vector3f normal = (cross.dot(element) < 0 ? -1.0f : 1.0f) * cross.normalized();
-      if (!(normal.dot(element) > kBend)) continue;
-      t.nx = normal.x(), t.ny = normal.y(), t.nz = normal.z();
-    }
-  }
+  for (int row = 0; row < camera.rows; ++row)
+    for (int col = 0; col < camera.cols; ++col)
+      for (int reach : {kReach, 1})
+        if (bend(row, col, reach)) break;
+}
+
+bool SurfaceView::bend(int row, int col, int reach) {
+  if (row < reach || col < reach || row + reach >= camera.rows || col + reach >= camera.cols) return false;
+  const auto next_row = static_cast<std::size_t>(camera.cols), far = static_cast<std::size_t>(reach);
+  const auto at = static_cast<std::size_t>(row) * next_row + static_cast<std::size_t>(col);
+  const Texel &left = flat_[at - far], &right = flat_[at + far];
+  const Texel &above = flat_[at - far * next_row], &below = flat_[at + far * next_row];
+  if (left.hit * right.hit * above.hit * below.hit * flat_[at].hit == 0) return false;
+  const Eigen::Vector3f across(right.x - left.x, right.y - left.y, right.z - left.z);
+  const Eigen::Vector3f down(below.x - above.x, below.y - above.y, below.z - above.z);
+  Texel& t = texels[at];
+  const Eigen::Vector3f element(t.nx, t.ny, t.nz), cross = across.cross(down);
+  const Eigen::Vector3f normal = (cross.dot(element) < 0 ? -1.0f : 1.0f) * cross.normalized();
+  if (!(normal.dot(element) > kBend)) return false;
+  t.nx = normal.x(), t.ny = normal.y(), t.nz = normal.z();
+  return true;
 }
 
 }  // namespace ppm

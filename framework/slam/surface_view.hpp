@@ -24,7 +24,11 @@ struct SurfaceView {
   /// Turns normals from those of the map's elements to those of the described surface, as far as its neighbours in the view
   /// show it: not across the edges of things, where the two differ by more than kBend.
   void bend();
+  /// One, by its neighbours `reach` pixels away.
+  bool bend(int row, int col, int reach);
   static constexpr float kBend = 0.85f;  // cosine
+  /// Far neighbours first: normals between near ones have the texels' noise, and a bare wall would hold by it.
+  static constexpr int kReach = 3;
   std::vector<Texel> flat_;
 };
 

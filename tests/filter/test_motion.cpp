@@ -235,3 +235,15 @@ TEST_CASE("learnt noise is that of the model's own errors on the path") {
   CHECK(variance(learnt, 0) == Approx((1e-4 + errors) / 7).epsilon(0.01));
   CHECK(variance(learnt, 3) < variance(given, 3));  // it never turned
 }
+
+TEST_CASE("noise of a rate grows with the length of the step") {
+  auto sigma_of = [](double step_s) {
+    ppm::Harness h(ppm::test::builtin(), "motion.random_walk", "{sigma_t: 1 cm, sigma_r: 1 deg, noise_rate: 10 Hz}");
+    begin(h.belief(), 1, some_twist());
+    h.input<ppm::Frame>("frame", frame_at(2, 0.1 + step_s));
+    h.tick();
+    return std::sqrt(h.belief().column<ppm::MotionPrior>(ppm::kMotionPriorColumn)[0].covariance(0, 0));
+  };
+  CHECK(sigma_of(0.1) == Approx(0.01));
+  CHECK(sigma_of(0.4) == Approx(0.08));
+}
