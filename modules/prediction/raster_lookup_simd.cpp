@@ -83,11 +83,12 @@ class RunsOfPixels {
   VI index_;
 };
 
-/// Image coordinates of pixels; short where they are neighbours in a row.
-void place(const RasterCamera& camera, const std::int32_t* pixel, VF& x, VF& y) {
+/// Image coordinates of pixels; short where they are neighbours in a row. whole: as many pixels as lanes, not a list's end
+/// whose last pixel is repeated: that can have gaps and still end as far off as neighbours do.
+void place(const RasterCamera& camera, const std::int32_t* pixel, bool whole, VF& x, VF& y) {
   constexpr auto lanes = static_cast<std::int32_t>(kLanes);
   const std::int32_t first_row = pixel[0] / camera.cols, first_col = pixel[0] - first_row * camera.cols;
-  if (pixel[lanes - 1] - pixel[0] == lanes - 1 && first_col + lanes <= camera.cols) {
+  if (whole && pixel[lanes - 1] - pixel[0] == lanes - 1 && first_col + lanes <= camera.cols) {
     x = hn::Iota(df, static_cast<float>(first_col - camera.middle_x));
     y = hn::Set(df, static_cast<float>(first_row + camera.first_row - camera.middle_y));
     return;
@@ -145,7 +146,7 @@ void arrive(const RasterCamera& camera, const RasterRuns& runs, RasterPixels& pi
   for (std::size_t p = 0; p < pixels.size; p += kLanes) {
     const RunsOfPixels of_run(runs, pixels, p);
     VF x, y;
-    place(camera, pixels.pixel() + p, x, y);
+    place(camera, pixels.pixel() + p, p + kLanes <= pixels.size, x, y);
     const VF depth = hn::Div(hn::Set(df, 1.f), of_run.at(2, x, y)), per_edge = hn::Mul(of_run.beside(0), depth);
     hn::Store(hn::Mul(depth, ray_length(camera, x, y)), df, pixels.range + p);
     hn::Store(hn::Mul(of_run.at(0, x, y), per_edge), df, pixels.u + p);

@@ -77,3 +77,31 @@ TEST_CASE("an image that is too large for the rasterizer's numbers is refused") 
   CHECK_THROWS_AS(raster_camera({40000, 2, 100, 100, 150, 1}, Pose::Identity(), true), InternalError);
   CHECK_THROWS_AS(raster_camera({8000, 8000, 100, 100, 150, 1}, Pose::Identity(), true), InternalError);
 }
+
+TEST_CASE("a pixel shows the same whichever others are asked for with it") {
+  const Camera camera{40, 4, 30, 30, 12, 1};
+  const OneFace face(6, 0.f, 1.f);
+  RasterBand band;
+  band.end_row = camera.rows;
+  band.texels = {face.as_chunk(0)};
+  add_triangle(band, 0);
+  const auto pixels = static_cast<std::size_t>(camera.pixels());
+  band.shown.reserve(pixels + RasterBand::kSpare);
+  std::fill_n(band.shown.data(), pixels, 0u);
+  RasterLookup lookup(raster_camera(camera, Pose::Identity(), true), {true, false, 0.2f, 99});
+  std::vector<float> range;
+  for (std::uint32_t p = 0; p < pixels; ++p) {
+    lookup.find(band, std::span(&p, 1));
+    range.push_back(lookup.at.range[0]);
+  }
+  // Lists that end as far from where their last group begins as neighbours would, but have gaps: 14 of 16 pixels, say.
+  for (std::uint32_t first = 0; first + 16 < pixels; ++first) {
+    for (std::uint32_t left_out = 1; left_out < 15; ++left_out) {
+      std::vector<std::uint32_t> asked;
+      for (std::uint32_t k = 0; k < 16; ++k)
+        if (k != left_out && k != 5) asked.push_back(first + k);
+      REQUIRE(lookup.find(band, asked) == asked.size());
+      for (std::size_t i = 0; i < asked.size(); ++i) CHECK(lookup.at.range[i] == range[asked[i]]);
+    }
+  }
+}
