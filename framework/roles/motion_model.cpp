@@ -49,9 +49,9 @@ PathMotion::PathMotion(const PoseNoise& noise) : noise_(noise) {
       .unit("Hz")
       .range(0, 1e6)
       .doc(
-          "sigma_t and sigma_r are those of steps at this rate, and grow with a step's length to the power 1.5, as an "
-          "acceleration that is white noise makes them: the same numbers for cameras of any rate. 0 Hz: of every step, "
-          "whatever its length.");
+          "Rate whose steps sigma_t and sigma_r are of: they grow with a step's length, as a velocity that is "
+          "uncertain makes them, so that the same numbers do for cameras of any rate. 0 Hz: they are of every step, whatever "
+          "its length.");
   params_.add("noise_steps", noise_steps_)
       .range(0, 1000)
       .doc(
@@ -72,7 +72,7 @@ MotionPrior PathMotion::expect(std::size_t, const Trajectory& path, const Frame&
 }
 
 double PathMotion::growth(double step_s) const {
-  return noise_rate_hz_ > 0 ? std::pow(std::max(step_s, 0.0) * noise_rate_hz_, 1.5) : 1;
+  return noise_rate_hz_ > 0 ? std::max(step_s, 0.0) * noise_rate_hz_ : 1;
 }
 
 PoseNoise PathMotion::learnt(const Trajectory& path) const {

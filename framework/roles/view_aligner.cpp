@@ -8,7 +8,10 @@ namespace ppm {
 namespace {
 
 constexpr std::size_t kLevels = 3;
-constexpr std::array<int, kLevels> kCoarser{4, 2, 1};  // steps of the levels' grids, in steps of the finest
+/// Steps of the levels' grids, in steps of the finest. The first is for many starts, where it has points enough; the others
+/// are those of an alignment.
+constexpr std::array<int, kLevels + 1> kCoarser{8, 4, 2, 1};
+constexpr std::size_t kEnoughPoints = 200;
 
 /// A view's own place and a pose that is compared with it: farther apart the view is drawn again.
 constexpr double kNear_m = 0.02, kNear_rad = 0.02;
@@ -75,7 +78,9 @@ void ViewAligner::declare_limits(Params& params) {
 
 void ViewAligner::begin(const Frame& frame) {
   camera_ = frame.camera;
-  measured_.build(frame, {kCoarser[0] * step_fine_, kCoarser[1] * step_fine_, kCoarser[2] * step_fine_}, jump_);
+  std::vector<int> steps;
+  for (int coarser : kCoarser) steps.push_back(coarser * step_fine_);
+  measured_.build(frame, steps, jump_);
 }
 
 void ViewAligner::look(const ViewPredictor& predictor, const Map& map, const Pose& T_map_camera, AlignScratch& scratch,
@@ -99,12 +104,12 @@ ViewAligner::Level ViewAligner::level(Manner manner, std::size_t k) const {
   return {kWideSteps[k], gate};
 }
 
-void ViewAligner::descend(std::size_t k, const Level& how, const SurfaceView& view, const MotionPrior& prior,
+void ViewAligner::descend(const MeasuredSurface::Level& points, const Level& how, const SurfaceView& view, const MotionPrior& prior,
                           Alignment& at) const {
   constexpr double kSmall = 1e-5;  // m and rad: what a further step would not be worth
   const Matrix6 P = information(prior);
   for (int step = 0; step < how.steps; ++step) {
-    AlignmentSum sum = align_sum(measured_.levels[k], view, at.T_map_camera, how.gate);
+    AlignmentSum sum = align_sum(points, view, at.T_map_camera, how.gate);
     if (hold_least_ > 0) sum.drop_weak_directions(hold_least_);
     at.information = alpha_ * sum.H + P;
     at.likelihood = likelihood(sum);
@@ -127,11 +132,12 @@ Alignment ViewAligner::align(const ViewPredictor& predictor, const Map& map, con
   at.T_map_camera = start;
   look(predictor, map, start, scratch, worker);
   for (std::size_t k = 0; k < kLevels; ++k) {
-    descend(k, level(manner, k), scratch.view, prior, at);
+    const auto& points = measured_.levels[k + 1];
+    descend(points, level(manner, k), scratch.view, prior, at);
     const bool again = manner == Manner::wide || k + 1 == kLevels;
     if (again && !near(scratch.view.T_map_camera, at.T_map_camera)) {
       look(predictor, map, at.T_map_camera, scratch, worker);
-      if (k + 1 == kLevels) descend(k, level(Manner::close, k), scratch.view, prior, at);
+      if (k + 1 == kLevels) descend(points, level(Manner::close, k), scratch.view, prior, at);
     }
   }
   at.fit = alignment_fit(measured_.levels.back(), scratch.view, at.T_map_camera);
@@ -141,9 +147,10 @@ Alignment ViewAligner::align(const ViewPredictor& predictor, const Map& map, con
 Alignment ViewAligner::align_coarsely(const SurfaceView& view, const MotionPrior& prior, const Pose& start) const {
   Alignment at;
   at.T_map_camera = start;
-  descend(0, level(Manner::wide, 0), view, prior, at);
-  at.fit = alignment_fit(measured_.levels.front(), view, at.T_map_camera);
-  at.likelihood = likelihood(align_sum(measured_.levels.front(), view, at.T_map_camera, level(Manner::wide, 1).gate));
+  const auto& points = measured_.levels[measured_.levels.front().size() < kEnoughPoints ? 1 : 0];
+  descend(points, level(Manner::wide, 0), view, prior, at);
+  at.fit = alignment_fit(points, view, at.T_map_camera);
+  at.likelihood = likelihood(align_sum(points, view, at.T_map_camera, level(Manner::wide, 1).gate));
   return at;
 }
 

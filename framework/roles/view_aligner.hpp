@@ -66,7 +66,7 @@ class ViewAligner {
   };
   Level level(Manner manner, std::size_t k) const;
   /// `steps` Gauss-Newton steps on a level; fewer where they have become small.
-  void descend(std::size_t k, const Level& how, const SurfaceView& view, const MotionPrior& prior, Alignment& at) const;
+  void descend(const MeasuredSurface::Level& points, const Level& how, const SurfaceView& view, const MotionPrior& prior, Alignment& at) const;
   double likelihood(const AlignmentSum& sum) const;
 
   int stride_ = 2;

@@ -73,6 +73,7 @@ class Relocalize final : public Module {
     tried_ = 0;
     const auto before = watch_.phase();
     const bool came_lost = belief->lost && !said_lost_;
+    if (!belief->lost && sure_frame_ < 0) remember_start(context);
     if (came_lost)
       watch_.lose();
     else
@@ -110,6 +111,16 @@ class Relocalize final : public Module {
   void remember(Context& context) {
     anchors().values = belief->pose;
     sure_frame_ = context.frame();
+  }
+
+  /// A belief that did not come lost knows where its path begins, even where no frame after it is explained.
+  void remember_start(Context& context) {
+    for (std::size_t i = 0; i < belief->size(); ++i) {
+      const Trajectory before = belief->trajectory[i].parent();
+      if (before.empty()) return;
+      anchors()[i] = before.last().T_map_camera;
+    }
+    sure_frame_ = context.frame() - 1;
   }
 
   void declare_loss(Context& context) {

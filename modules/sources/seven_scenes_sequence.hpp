@@ -13,7 +13,7 @@ struct SevenScenesSettings {
   double depth_scale = 1000;   ///< units per m
   double rate_hz = 30;         ///< stamp = number / rate
   bool color = false;
-  ColorCamera color_camera;
+  ColorCamera color_camera{};
 };
 
 /// frame-NNNNNN.{depth.png, pose.txt, color.jpg} and camera-intrinsics.txt in one folder, in the order of their

@@ -245,5 +245,5 @@ TEST_CASE("noise of a rate grows with the length of the step") {
     return std::sqrt(h.belief().column<ppm::MotionPrior>(ppm::kMotionPriorColumn)[0].covariance(0, 0));
   };
   CHECK(sigma_of(0.1) == Approx(0.01));
-  CHECK(sigma_of(0.4) == Approx(0.08));
+  CHECK(sigma_of(0.4) == Approx(0.04));
 }

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <numbers>
 #include <set>
 
 #include "framework/graph/harness.hpp"
@@ -149,13 +150,30 @@ TEST_CASE("a frame that teaches the map nothing, held out or while lost, does no
 TEST_CASE("a frame in which the map shows nothing at many measured pixels is a keyframe") {
   const double misses = GENERATE(0.3, 1.0);
   CAPTURE(misses);
-  Run run(fmt::format("{{keyframe_every: 100, between: nothing, keyframe_misses: {}}}", misses));
+  Run run(fmt::format("{{keyframe_every: 100, between: nothing, keyframe_misses: {}, keyframe_angle: 180 deg}}", misses));
   run.step(look({0, 0, 0}));
   const auto map = run.map();
   run.step(look({0, 0, 0}, 0.1));
   CHECK(run.map() == map);
   run.step(look({0, 0, 0}, 0.9));  // half of it unseen
   CHECK((run.map() != map) == (misses < 1));
+}
+
+TEST_CASE("a frame far from the last keyframe, or turned from it, is one") {
+  Run run("{keyframe_every: 100, between: nothing, keyframe_misses: 1, keyframe_distance: 10 cm, keyframe_angle: 10 deg}");
+  auto changes = [&](const Pose& pose) {
+    const auto before = run.map();
+    run.step(pose);
+    return run.map() != before;
+  };
+  const double degree = std::numbers::pi / 180;
+  CHECK(changes(look({0, 0, 0})));
+  CHECK_FALSE(changes(look({0.06, 0, 0})));
+  CHECK(changes(look({0.12, 0, 0})));
+  CHECK_FALSE(changes(look({0.18, 0, 0})));  // from the new one
+  CHECK_FALSE(changes(look({0.18, 0, 0}, 8 * degree)));
+  CHECK(changes(look({0.18, 0, 0}, 12 * degree)));
+  CHECK_FALSE(changes(look({0.18, 0, 0}, 12 * degree)));
 }
 
 TEST_CASE("keyframes and frames between them give the same bytes for any number of threads, with strided views too") {

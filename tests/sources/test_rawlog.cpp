@@ -84,7 +84,7 @@ TEST_CASE("observations alone: depth, lens, times and place of the camera, odome
   CHECK_THAT(log.remarks()[0], Contains("1 mrpt::obs::CObservationComment"));
 }
 
-TEST_CASE("actions and sensory frames: odometry is the sum of the steps; ranges along the ray become depths") {
+TEST_CASE("actions and sensory frames: odometry is the sum of the steps, ranges along the ray become depths") {
   TempFolder folder;
   MrptObjects objects;
   for (int k = 0; k < 3; ++k) {
@@ -149,7 +149,7 @@ TEST_CASE("a lens is taken out, each pixel being that whose ray is nearest") {
   CHECK_THROWS_WITH(opened(folder / "e.rawlog").read(0), Contains("frame 0") && Contains("fisheye"));
 }
 
-TEST_CASE("the images of one of several cameras are read; a file with several needs its name") {
+TEST_CASE("the images of one of several cameras are read, a file with several needs its name") {
   TempFolder folder;
   auto left = small_scan(1, 1000), right = small_scan(0.5, 2000);
   right->sensorLabel = "right";
