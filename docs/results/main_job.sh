@@ -71,7 +71,7 @@ for seed in $seeds; do
   run room_$seed configs/room.yaml --seed $seed
   slam_row room_$seed $seed >>"$page.part"
   if [ -d "$data/kitchen" ]; then
-    for graph in kitchen_slam_paper kitchen_slam; do
+    for graph in kitchen_slam_paper kitchen_slam_motion kitchen_slam; do
       run ${graph}_$seed configs/$graph.yaml --seed $seed --set camera.last=299
       slam_row ${graph}_$seed $seed >>"$page.part"
     done
@@ -93,13 +93,14 @@ memory_rows() {  # NAME: what the maps of all particles occupy, over the run
   echo
   command_line configs/room.yaml --seed SEED
   command_line configs/kitchen_slam_paper.yaml --seed SEED --set camera.last=299
+  command_line configs/kitchen_slam_motion.yaml --seed SEED --set camera.last=299
   command_line configs/kitchen_slam.yaml --seed SEED --set camera.last=299
   command_line configs/icl_slam.yaml --seed SEED
   echo
   echo "## What sharing saves"
   echo
   first=room_${seeds%% *}
-  [ -d "$data/kitchen" ] && first=kitchen_slam_${seeds%% *}
+  [ -d "$data/kitchen" ] && first=kitchen_slam_motion_${seeds%% *}
   echo "Memory of the maps of all 100 particles in the run \`$first\`, against what they would occupy each for itself."
   echo
   echo "| frame | owned, MiB | without sharing, MiB | share |"
