@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # How the filter finds its way: accuracy, large steps, where one hypothesis fails, and the literal filter. Rewrites the tables of finding.md.
 #   bash docs/results/finding.sh [PART ...]     default: accuracy strides hard literal (about an hour on 2 cores; runs that are there are kept)
+#   FINDING_SEEDS (20) and FINDING_PARTICLES (100) make `hard` shorter.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 export PPM_DATA=${PPM_DATA:-../shared/data}
