@@ -1,10 +1,9 @@
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include "framework/graph/registry.hpp"
-#include "framework/roles/map_editor.hpp"
+#include "framework/roles/map_update.hpp"
 #include "modules/maps/ppm/ppm_update.hpp"
 
 namespace {
@@ -15,14 +14,11 @@ using namespace ppm;
 /// frame   [rows*cols] depth and its sigma, NaN = no return; lateral_px; color where the map has it (DataError where
 ///         the frame has none)
 /// belief  needs a prediction of this frame's view (any stride: the update then works on the prediction's grid)
-/// In the frames between keyframes (`keyframe_every`) texels take offsets at most, see update_visible_texels(). Frames that
-/// are held out, or come while the belief is lost, teach the map nothing and do not count.
+/// In the frames between keyframes texels take offsets at most, see update_visible_texels().
 /// source  paper, section 4.3
-class PpmBayesUpdate final : public MapEditor {
+class PpmBayesUpdate final : public MapUpdate {
  public:
-  In<Frame> frame{this, "frame", "The image to be mapped."};
-
-  PpmBayesUpdate() : MapEditor({{"map.ppm", "prediction.elements"}, {}, {}}) {
+  PpmBayesUpdate() : MapUpdate({{"map.ppm", "prediction.elements"}, {}, {}}) {
     add_association();
     add_texels();
     add_surface();
@@ -30,57 +26,48 @@ class PpmBayesUpdate final : public MapEditor {
     add_votes();
     add_excess();
     add_color();
-    add_keyframes();
+    add_keyframe_params();
+    add_between();
   }
 
   void before(Context& context) override {
-    learns_ = !frame->held_out && !belief->lost;
-    if (learns_) number_ = mapped_++;
+    MapUpdate::before(context);
     settings_.share();
     seen_.resize(context.threads());
     scratch_.resize(context.threads());
-    keyframed_.assign(belief->size(), 0);
-    keyframe_poses_ = &belief->column<Pose>(kKeyframe);
   }
 
-  MapHandle edit(Context& context, std::size_t particle, MapHandle map, int worker) override {
-    if (!learns_) return map;
-    const PredictionHandle view = belief->prediction[particle];
-    PPM_CHECK(view, "particle {} has no prediction", particle);
-    auto mesh = std::static_pointer_cast<const PpmMap>(std::move(map));
-    if (number_ % keyframe_every_ != 0 && !has_moved(particle) && !brings_new(*mesh, *view, seen_[worker])) {
-      if (between_ == Between::nothing) return mesh;
-      return update_visible_texels(std::move(mesh), *frame, view->stride, view->T_map_camera, seen_[worker],
-                                   settings_.texels);
-    }
-    keyframed_[particle] = 1;
-    const PredictionHandle whole = completed(view, completed_, context.workers());
-    return update_map(std::move(mesh), *frame, *whole, settings_, number_ / keyframe_every_, context.workers(),
+ protected:
+  MapHandle learn(Context& context, std::size_t particle, MapHandle map, int worker) override {
+    const PredictionHandle whole = completed(view_of(particle), completed_, context.workers());
+    return update_map(mesh_of(std::move(map)), *frame, *whole, settings_, keyframe(), context.workers(),
                       scratch_[worker]);
   }
 
-  void edited(std::size_t particle, std::size_t by) override {
-    if (keyframed_[by]) belief->column<Pose>(kKeyframe)[particle] = belief->pose[particle];
+  /// Leaves the faces in view in `seen_`.
+  double miss_share(const Map& map, std::size_t particle, int worker) override {
+    auto& seen = seen_[worker];
+    seen.collect(static_cast<const PpmMap&>(map), *view_of(particle), *frame);
+    return seen.miss_share();
   }
 
-  void save(RecordWriter& out) const override { out.add(mapped_); }
-  void load(RecordReader& in) override { in.take(mapped_); }
+  MapHandle between(Context&, std::size_t particle, MapHandle map, int worker) override {
+    if (between_ == Between::nothing) return map;
+    const auto view = view_of(particle);
+    return update_visible_texels(mesh_of(std::move(map)), *frame, view->stride, view->T_map_camera, seen_[worker],
+                                 settings_.texels);
+  }
 
  private:
   enum class Between { texels, nothing };
-  static constexpr const char* kKeyframe = "map_update.keyframe";  // column: where the particle's last keyframe was
 
-  bool has_moved(std::size_t particle) const {
-    const Pose since = (*keyframe_poses_)[particle].inverse() * belief->pose[particle];
-    return since.translation().norm() > keyframe_distance_ || rotation_angle(since) > keyframe_angle_;
+  PredictionHandle view_of(std::size_t particle) const {
+    const auto& view = belief->prediction[particle];
+    PPM_CHECK(view, "particle {} has no prediction", particle);
+    return view;
   }
-
-  /// Whether the image asks for a keyframe between the regular ones. Leaves the faces in view in `seen`, where they
-  /// are needed.
-  bool brings_new(const PpmMap& map, const Prediction& view, VisibleFaces& seen) const {
-    if (between_ == Between::nothing && keyframe_misses_ >= 1) return false;
-    seen.collect(map, view, *frame);
-    return seen.miss_share() > keyframe_misses_;
+  static std::shared_ptr<const PpmMap> mesh_of(MapHandle map) {
+    return std::static_pointer_cast<const PpmMap>(std::move(map));
   }
 
   void add_association() {
@@ -255,43 +242,16 @@ class PpmBayesUpdate final : public MapEditor {
             "Standard deviation by which a texel's colour may change between two images that see it, where 1 is the "
             "brightest: for lighting that changes. 0 is the paper's form, which weighs the first image like the last.");
   }
-  void add_keyframes() {
-    params_.add("keyframe_every", keyframe_every_)
-        .range(1, 1000000)
-        .doc(
-            "Mapped frames from one keyframe to the next. Keyframes do all that this module does; the frames between them "
-            "what "
-            "`between` says.");
+  void add_between() {
     params_.add_choice("between", between_, {{"texels", Between::texels}, {"nothing", Between::nothing}})
         .doc(
             "What the frames between keyframes change: texels lets the offsets of the faces in view read the image (in "
             "the gather form), nothing leaves the map as it is.");
-    params_.add("keyframe_distance", keyframe_distance_)
-        .unit("m")
-        .range(0, 1000)
-        .doc("A frame between keyframes becomes one, for the particles that are farther than this from their last one ...");
-    params_.add("keyframe_angle", keyframe_angle_)
-        .unit("rad")
-        .range(0, std::numbers::pi)
-        .doc("... or turned by more than this.");
-    params_.add("keyframe_misses", keyframe_misses_)
-        .range(0, 1)
-        .doc(
-            "A frame between keyframes becomes one, for the particles whose map shows nothing at more than this share "
-            "of "
-            "its measured pixels. 1 = never.");
   }
   static bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
 
   UpdateSettings settings_;
-  std::int64_t mapped_ = 0;  // frames that the maps have learnt from
-  std::int64_t number_ = 0;  // of this one among them
-  bool learns_ = true;       // from this one
-  std::int64_t keyframe_every_ = 1;
   Between between_ = Between::texels;
-  double keyframe_misses_ = 0.1, keyframe_distance_ = 0.1, keyframe_angle_ = 10 * std::numbers::pi / 180;
-  std::vector<std::uint8_t> keyframed_;                // by particle, of this frame
-  const Column<Pose>* keyframe_poses_ = nullptr;  // of this frame
   PredictionPool completed_;
   PerWorker<VisibleFaces> seen_;
   PerWorker<UpdateScratch> scratch_;
