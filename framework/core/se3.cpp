@@ -85,4 +85,9 @@ double rotation_angle(const Pose& T) {
   return so3_log(T.linear()).norm();
 }
 
+bool are_near(const Pose& a, const Pose& b, double distance_m, double angle_rad) {
+  const Pose between = a.inverse() * b;
+  return between.translation().norm() < distance_m && rotation_angle(between) < angle_rad;
+}
+
 }  // namespace ppm

@@ -20,5 +20,7 @@ Pose orthonormalized(const Eigen::Matrix4d& T);
 bool is_finite(const Pose& T);
 /// Angle of the rotation, rad, in [0, pi].
 double rotation_angle(const Pose& T);
+/// Whether two poses are nearer to each other than both limits.
+bool are_near(const Pose& a, const Pose& b, double distance_m, double angle_rad);
 
 }  // namespace ppm

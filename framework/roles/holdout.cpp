@@ -48,8 +48,7 @@ std::vector<Pair> pairs_of(const std::vector<StampedPose>& path, const std::vect
 }
 
 bool is_same(const Pair& pair) {
-  const Pose off = pair.reference.inverse() * pair.estimated;
-  return off.translation().norm() < kSamePose && rotation_angle(off) < kSamePose;
+  return are_near(pair.reference, pair.estimated, kSamePose, kSamePose);
 }
 
 /// T_map_ref. Source of the mean of rotations: Hartley et al., "Rotation averaging", IJCV 2013, section 5.3.

@@ -13,8 +13,7 @@ namespace {
 /// A draw from N(0, covariance), which may be singular.
 Twist draw(const Matrix6& covariance, Rng rng) {
   const Eigen::LDLT<Matrix6> root(covariance);
-  Twist z;
-  for (int i = 0; i < 6; ++i) z[i] = rng.normal();
+  Twist z = normal_twist(rng);
   z.array() *= root.vectorD().array().max(0.0).sqrt();
   return root.transpositionsP().transpose() * (root.matrixL() * z);
 }

@@ -22,10 +22,16 @@ Matrix6 PoseNoise::covariance() const {
 }
 
 Pose PoseNoise::draw(Rng rng) const {
-  Twist xi;
-  for (int i = 0; i < 3; ++i) xi[i] = sigma_t * rng.normal();
-  for (int i = 3; i < 6; ++i) xi[i] = sigma_r * rng.normal();
+  Twist xi = normal_twist(rng);
+  xi.head<3>() *= sigma_t;
+  xi.tail<3>() *= sigma_r;
   return se3_exp(xi);
+}
+
+Twist normal_twist(Rng rng) {
+  Twist z;
+  for (int k = 0; k < 6; ++k) z[k] = rng.normal();
+  return z;
 }
 
 }  // namespace ppm

@@ -21,4 +21,7 @@ struct PoseNoise {
   Pose draw(Rng rng) const;
 };
 
+/// Six independent standard normal draws, in the twist's order.
+Twist normal_twist(Rng rng);
+
 }  // namespace ppm

@@ -56,4 +56,12 @@ std::vector<std::size_t> map_twins(const ParticleSet& belief) {
   });
 }
 
+std::vector<const Map*> distinct_maps(const ParticleSet& belief) {
+  const auto twin = map_twins(belief);
+  std::vector<const Map*> maps;
+  for (std::size_t i = 0; i < twin.size(); ++i)
+    if (twin[i] == i) maps.push_back(belief.map[i].get());
+  return maps;
+}
+
 }  // namespace ppm

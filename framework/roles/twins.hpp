@@ -17,4 +17,7 @@ std::vector<std::size_t> twins(const ParticleSet& belief, const std::vector<Pose
 /// For each particle the lowest particle with the same map, wherever they are.
 std::vector<std::size_t> map_twins(const ParticleSet& belief);
 
+/// The maps of a belief, each once, in the order of the first particle that has each.
+std::vector<const Map*> distinct_maps(const ParticleSet& belief);
+
 }  // namespace ppm

@@ -1,7 +1,10 @@
 #include "framework/roles/view_aligner.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 namespace ppm {
 
@@ -16,17 +19,30 @@ constexpr std::size_t kEnoughPoints = 200;
 /// A view's own place and a pose that is compared with it: farther apart the view is drawn again.
 constexpr double kNear_m = 0.02, kNear_rad = 0.02;
 
-bool near(const Pose& a, const Pose& b) {
-  const Pose between = a.inverse() * b;
-  return between.translation().norm() < kNear_m && rotation_angle(between) < kNear_rad;
-}
-
-/// Of the prior; a covariance without an inverse gets a floor of (1 um)^2.
-Matrix6 information(const MotionPrior& prior) {
-  return (prior.covariance + 1e-12 * Matrix6::Identity()).llt().solve(Matrix6::Identity());
-}
+/// Alignments nearer to each other than this are of one place.
+constexpr double kApart_m = 0.03, kApart_rad = 1.5 * std::numbers::pi / 180;
 
 }  // namespace
+
+std::vector<Alignment> distinct_places(std::vector<Alignment> found, std::size_t most) {
+  std::ranges::stable_sort(found, std::greater(), &Alignment::likelihood);
+  std::vector<Alignment> places;
+  for (const auto& at : found) {
+    if (places.size() == most) break;
+    const auto is_here = [&](const Alignment& place) {
+      return are_near(place.T_map_camera, at.T_map_camera, kApart_m, kApart_rad);
+    };
+    if (std::ranges::none_of(places, is_here)) places.push_back(at);
+  }
+  return places;
+}
+
+PoseDraw draw_around(const Alignment& at, const Twist& z) {
+  const Eigen::LLT<Matrix6> root(at.information);
+  const double log_density =
+      root.matrixLLT().diagonal().array().log().sum() - 0.5 * z.squaredNorm() - 3 * std::log(2 * std::numbers::pi);
+  return {at.T_map_camera * se3_exp(root.matrixU().solve(z)), log_density};
+}
 
 void ViewAligner::declare(Params& params) {
   params.add("view_stride", stride_).range(1, 64).doc("Draws each n-th pixel of each n-th row of the view to align to.");
@@ -107,7 +123,7 @@ ViewAligner::Level ViewAligner::level(Manner manner, std::size_t k) const {
 void ViewAligner::descend(const MeasuredSurface::Level& points, const Level& how, const SurfaceView& view, const MotionPrior& prior,
                           Alignment& at) const {
   constexpr double kSmall = 1e-5;  // m and rad: what a further step would not be worth
-  const Matrix6 P = information(prior);
+  const Matrix6 P = prior.information();
   for (int step = 0; step < how.steps; ++step) {
     AlignmentSum sum = align_sum(points, view, at.T_map_camera, how.gate);
     if (hold_least_ > 0) sum.drop_weak_directions(hold_least_);
@@ -135,7 +151,7 @@ Alignment ViewAligner::align(const ViewPredictor& predictor, const Map& map, con
     const auto& points = measured_.levels[k + 1];
     descend(points, level(manner, k), scratch.view, prior, at);
     const bool again = manner == Manner::wide || k + 1 == kLevels;
-    if (again && !near(scratch.view.T_map_camera, at.T_map_camera)) {
+    if (again && !are_near(scratch.view.T_map_camera, at.T_map_camera, kNear_m, kNear_rad)) {
       look(predictor, map, at.T_map_camera, scratch, worker);
       if (k + 1 == kLevels) descend(points, level(Manner::close, k), scratch.view, prior, at);
     }

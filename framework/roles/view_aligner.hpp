@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "framework/config/params.hpp"
@@ -16,6 +18,18 @@ struct Alignment {
   AlignmentFit fit;                       ///< beside a view at (nearly) this pose
   double likelihood = 0;                  ///< tempered log likelihood of the residuals, to compare alignments of a frame
 };
+
+/// The places among some alignments: the likeliest of each, likeliest first, at most so many. Within 3 cm and 1.5 degrees is
+/// one place.
+std::vector<Alignment> distinct_places(std::vector<Alignment> found, std::size_t most = std::numeric_limits<std::size_t>::max());
+
+/// A pose from the Gaussian around an alignment's optimum, and the log density of its twist there.
+struct PoseDraw {
+  Pose T_map_camera = Pose::Identity();
+  double log_density = 0;
+};
+/// z: standard normal; zero for the optimum itself.
+PoseDraw draw_around(const Alignment& at, const Twist& z);
 
 /// Memory of one worker.
 struct AlignScratch {

@@ -1,7 +1,6 @@
 #include "framework/roles/view_predictor.hpp"
 
 #include <algorithm>
-#include <unordered_set>
 
 #include "framework/roles/twins.hpp"
 
@@ -48,11 +47,7 @@ void ViewPredictor::predict_all(const Map& map, Prediction& out, int worker) con
 
 void ViewPredictor::before(Context& context) {
   auto& particles = *belief;
-  std::vector<const Map*> maps;
-  std::unordered_set<const Map*> seen;
-  for (const auto& map : particles.map)
-    if (seen.insert(map.get()).second) maps.push_back(map.get());
-  prepare(maps, context.workers());
+  prepare(distinct_maps(particles), context.workers());
 
   // Views that several particles share are there before the loop; the loop makes each particle's own. Where there are
   // fewer views than would keep the workers busy, all are made here, in parts.

@@ -13,26 +13,6 @@ namespace {
 
 using namespace ppm;
 
-/// Poses nearer to each other than this are one place.
-constexpr double kApart_m = 0.03, kApart_rad = 1.5 * std::numbers::pi / 180;
-
-bool same_place(const Pose& a, const Pose& b) {
-  const Pose between = a.inverse() * b;
-  return between.translation().norm() < kApart_m && rotation_angle(between) < kApart_rad;
-}
-
-/// The places among some alignments, the likeliest of each, likeliest first, at most so many.
-std::vector<Alignment> places(std::vector<Alignment> found, std::size_t most) {
-  std::ranges::stable_sort(found, std::greater(), &Alignment::likelihood);
-  std::vector<Alignment> kept;
-  for (const auto& a : found) {
-    if (kept.size() == most) break;
-    if (std::ranges::none_of(kept, [&](const auto& k) { return same_place(k.T_map_camera, a.T_map_camera); }))
-      kept.push_back(a);
-  }
-  return kept;
-}
-
 /// A proposal that looks first: each particle's frame is laid onto the view that its own map predicts where the motion
 /// model expects it, its pose is drawn from the Gaussian around the optimum, and its weight takes the density of the motion
 /// prior over that of the draw. Directions that the view does not hold (along a bare wall) keep the prior's spread.
@@ -87,7 +67,7 @@ class AlignedMotion final : public Module {
     auto& particles = *belief;
     aligner_.begin(*now);
     scratch_.resize(context.threads());
-    prepare_maps(context.workers());
+    view->prepare(distinct_maps(particles), context.workers());
     found_.assign(particles.size(), {});
     starts_made_ = 0;
     const auto leader = align_all(context);
@@ -107,14 +87,6 @@ class AlignedMotion final : public Module {
   };
 
   const MotionPrior& prior(std::size_t i) const { return belief->column<MotionPrior>(kMotionPriorColumn)[i]; }
-
-  void prepare_maps(const Workers& workers) {
-    std::vector<const Map*> maps;
-    const auto twin = map_twins(*belief);
-    for (std::size_t i = 0; i < twin.size(); ++i)
-      if (twin[i] == i) maps.push_back(belief->map[i].get());
-    view->prepare(maps, workers);
-  }
 
   /// From the prior's mean of each particle; particles that share map and mean are aligned once. Returns for each particle
   /// the one that was.
@@ -157,43 +129,34 @@ class AlignedMotion final : public Module {
   std::size_t search(Context& context, const std::vector<std::size_t>& leader) {
     const std::size_t parent = leader[belief->best()];
     aligner_.look(*view, *belief->map[parent], prior(parent).T_map_camera, shared_, 0);
-    std::vector<Found> best;
-    for (int stage = 0; stage < stages_ && best.empty(); ++stage) {
-      std::vector<Found> tried(refine(context, parent, coarse_places(context, parent, stage), stage));
-      std::erase_if(tried, [](const Found& f) { return !f.explains; });
-      best = std::move(tried);
-    }
-    if (best.empty()) return 0;
     std::vector<Alignment> explaining;
-    for (const auto& f : best) explaining.push_back(f.at);
-    explaining = places(std::move(explaining), places_most_);
-    adopt(parent, explaining);
+    for (int stage = 0; stage < stages_ && explaining.empty(); ++stage)
+      explaining = explaining_places(context, parent, widened(parent, stage), static_cast<std::size_t>(starts_) << stage);
+    if (!explaining.empty()) adopt(parent, explaining);
     return explaining.size();
   }
 
-  std::vector<Alignment> coarse_places(Context& context, std::size_t parent, int stage) {
-    const auto starts = static_cast<std::size_t>(starts_) << stage;
-    const MotionPrior wide = widened(parent, stage);
+  /// Of one stage: draws of the widened prior, their places, and what of those explains the frame when looked at closely.
+  std::vector<Alignment> explaining_places(Context& context, std::size_t parent, const MotionPrior& wide, std::size_t starts) {
+    const auto most = static_cast<std::size_t>(places_most_);
+    auto places = distinct_places(align_starts(context, wide, starts), most);
+    context.workers().for_each(places.size(), [&](std::size_t k, int worker) {
+      places[k] = aligner_.align(*view, *belief->map[parent], wide, places[k].T_map_camera, ViewAligner::Manner::wide,
+                                 scratch_[worker], worker);
+    });
+    std::erase_if(places, [&](const Alignment& at) { return !aligner_.explains(at.fit); });
+    return distinct_places(std::move(places), most);
+  }
+
+  std::vector<Alignment> align_starts(Context& context, const MotionPrior& wide, std::size_t starts) {
     const Matrix6 root = wide.covariance.llt().matrixL();
     std::vector<Alignment> coarse(starts);
     context.workers().for_each(starts, [&](std::size_t k, int) {
-      Rng rng = context.rng("start", starts_made_ + k);
-      Twist z;
-      for (int d = 0; d < 6; ++d) z[d] = rng.normal();
+      const Twist z = normal_twist(context.rng("start", starts_made_ + k));
       coarse[k] = aligner_.align_coarsely(shared_.view, wide, wide.T_map_camera * se3_exp(root * z));
     });
     starts_made_ += starts;
-    return places(std::move(coarse), static_cast<std::size_t>(places_most_));
-  }
-
-  std::vector<Found> refine(Context& context, std::size_t parent, const std::vector<Alignment>& coarse, int stage) {
-    std::vector<Found> refined(coarse.size());
-    const MotionPrior wide = widened(parent, stage);
-    context.workers().for_each(coarse.size(), [&](std::size_t k, int worker) {
-      refined[k] = judged(aligner_.align(*view, *belief->map[parent], wide, coarse[k].T_map_camera,
-                                         ViewAligner::Manner::wide, scratch_[worker], worker));
-    });
-    return refined;
+    return coarse;
   }
 
   /// The parent takes the likeliest place, a copy of it each other one.
@@ -232,16 +195,10 @@ class AlignedMotion final : public Module {
       if (!found_[i].usable) return;
       const auto& at = found_[i].at;
       seen[i] = at.information - prior(i).information();
-      const Eigen::LLT<Matrix6> root(at.information);
-      Twist z = Twist::Zero();
-      Rng rng = context.rng("draw", i);
-      if (draw_ == Draw::sample)
-        for (int d = 0; d < 6; ++d) z[d] = rng.normal();
-      const Pose drawn = at.T_map_camera * se3_exp(root.matrixU().solve(z));
-      const double log_draw = root.matrixLLT().diagonal().array().log().sum() - 0.5 * z.squaredNorm() -
-                              3 * std::log(2 * std::numbers::pi);
-      particles.correct(i, drawn);
-      particles.log_weight[i] += log_prior(i, drawn) - log_draw;
+      const Twist z = draw_ == Draw::sample ? normal_twist(context.rng("draw", i)) : Twist::Zero();
+      const PoseDraw drawn = draw_around(at, z);
+      particles.correct(i, drawn.T_map_camera);
+      particles.log_weight[i] += log_prior(i, drawn.T_map_camera) - drawn.log_density;
     });
     // A draw of the prior's own leaves the weight as it is, which is on another scale than a peak's: where some particles
     // were aligned, those that were not have to be worse.

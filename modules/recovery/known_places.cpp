@@ -42,10 +42,7 @@ void KnownPlaces::build(std::span<const Pose> T_map_camera, const ViewPredictor&
                         const Camera& camera, const Workers& workers) {
   places_.clear();
   auto known = [&](const Pose& T) {
-    return std::ranges::any_of(places_, [&](const Place& place) {
-      const Pose between = place.T_map_camera.inverse() * T;
-      return between.translation().norm() < distance_ && rotation_angle(between) < angle_;
-    });
+    return std::ranges::any_of(places_, [&](const Place& p) { return are_near(p.T_map_camera, T, distance_, angle_); });
   };
   for (const Pose& T : T_map_camera)
     if (!known(T)) places_.push_back({T, {}});

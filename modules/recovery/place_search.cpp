@@ -1,7 +1,7 @@
 #include "modules/recovery/place_search.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <utility>
 
 namespace ppm {
 
@@ -10,13 +10,6 @@ namespace {
 /// What is known of a pose in a search: next to nothing, so that only directions that no surface holds stay with the start.
 constexpr PoseNoise kVague{0.5, 0.5};
 constexpr int kMostDraws = 10000;  // around a start
-/// Poses nearer to each other than this are one place.
-constexpr double kApart_m = 0.03, kApart_rad = 1.5 * std::numbers::pi / 180;
-
-bool one_place(const Pose& a, const Pose& b) {
-  const Pose between = a.inverse() * b;
-  return between.translation().norm() < kApart_m && rotation_angle(between) < kApart_rad;
-}
 
 }  // namespace
 
@@ -72,18 +65,7 @@ std::vector<Alignment> PlaceSearch::run(std::span<const SearchStart> starts, con
     tried[i] = best_of(starts[i], aligner, predictor, map, rng, worker);
   });
   std::erase_if(tried, [&](const Alignment& at) { return !accepts(at.fit); });
-  std::ranges::stable_sort(tried, std::greater(), &Alignment::likelihood);
-  std::vector<Alignment> found;
-  for (const auto& at : tried)
-    if (std::ranges::none_of(found, [&](const auto& f) { return one_place(f.T_map_camera, at.T_map_camera); }))
-      found.push_back(at);
-  return found;
-}
-
-Pose draw_around(const Alignment& at, Rng rng) {
-  Twist z;
-  for (int d = 0; d < 6; ++d) z[d] = rng.normal();
-  return at.T_map_camera * se3_exp(Eigen::LLT<Matrix6>(at.information).matrixU().solve(z));
+  return distinct_places(std::move(tried));
 }
 
 }  // namespace ppm

@@ -53,7 +53,4 @@ class PlaceSearch {
   PerWorker<AlignScratch> scratch_;
 };
 
-/// A pose from the Gaussian around an alignment's optimum.
-Pose draw_around(const Alignment& at, Rng rng);
-
 }  // namespace ppm

@@ -193,8 +193,7 @@ class Relocalize final : public Module {
 
   static bool is_near(const Pose& a, const Pose& b) {
     constexpr double kNear_m = 0.1, kNear_rad = 0.1;
-    const Pose between = a.inverse() * b;
-    return between.translation().norm() < kNear_m && rotation_angle(between) < kNear_rad;
+    return are_near(a, b, kNear_m, kNear_rad);
   }
 
   void add_places(std::vector<SearchStart>& starts, Context& context) const {
@@ -217,7 +216,7 @@ class Relocalize final : public Module {
     for (std::size_t i = 0; i < particles.size(); ++i) {
       const Alignment& at = found_[i % found_.size()];
       const bool first = i < found_.size();  // stands at the optimum
-      stand(i, first ? at.T_map_camera : draw_around(at, context.rng("place", i)), context);
+      stand(i, first ? at.T_map_camera : draw_around(at, normal_twist(context.rng("place", i))).T_map_camera, context);
       particles.log_weight[i] = at.likelihood;
       const auto points = static_cast<double>(std::max<std::size_t>(at.fit.points, 1));
       fits[i] = {static_cast<float>(at.fit.outlier_share()), static_cast<float>(1 - static_cast<double>(at.fit.seen) / points)};

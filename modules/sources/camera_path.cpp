@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "framework/core/error.hpp"
+#include "modules/sources/view_direction.hpp"
 
 namespace ppm {
 namespace {
@@ -36,15 +37,6 @@ void add_sway(double scale, double t, State& state) {
     state(s.channel, 1) += a * s.rate * std::cos(phase);
     state(s.channel, 2) -= a * s.rate * s.rate * std::sin(phase);
   }
-}
-
-/// Camera axes (x right, y down, z forward) in the world.
-Eigen::Matrix3d look(double yaw, double pitch, double roll) {
-  const Eigen::Vector3d forward(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
-  const Eigen::Vector3d right(std::sin(yaw), -std::cos(yaw), 0);
-  Eigen::Matrix3d R;
-  R << right, forward.cross(right), forward;
-  return R * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ());
 }
 
 /// Angular velocity about the camera's axes: the yaw's is about the world's z axis, the pitch's about the level axis to the
@@ -124,7 +116,7 @@ CameraMotion CameraPath::at(double t_s) const {
   add_sway(sway_, t_s, state);
 
   CameraMotion motion;
-  motion.T_world_camera.linear() = look(state(kYaw, 0), state(kPitch, 0), state(kRoll, 0));
+  motion.T_world_camera.linear() = camera_axes(state(kYaw, 0), state(kPitch, 0), state(kRoll, 0));
   motion.T_world_camera.translation() = state.block<3, 1>(0, 0);
   motion.velocity_world = state.block<3, 1>(0, 1);
   motion.acceleration_world = state.block<3, 1>(0, 2);

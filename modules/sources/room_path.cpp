@@ -2,20 +2,13 @@
 
 #include <cmath>
 
+#include "modules/sources/view_direction.hpp"
+
 namespace ppm {
 namespace {
 
 constexpr double kLoop_s = 24, kStart_s = 0.7;  // one loop; time constant of setting off
 constexpr double kRadiusX_m = 0.95, kRadiusY_m = 0.80, kHeight_m = 1.42;
-
-/// Camera axes (x right, y down, z forward) for a direction of view; roll turns the image about it.
-Eigen::Matrix3d look(double yaw, double pitch, double roll) {
-  const Eigen::Vector3d forward(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
-  const Eigen::Vector3d right(std::sin(yaw), -std::cos(yaw), 0);
-  Eigen::Matrix3d R;
-  R << right, forward.cross(right), forward;
-  return R * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ());
-}
 
 }  // namespace
 
@@ -29,7 +22,7 @@ Pose room_camera_pose(double t_s) {
   const double yaw = angle + EIGEN_PI + 0.020 * std::sin(1.9 * u);
   const double pitch = -0.36 + 0.18 * std::sin(0.8 * u + 0.7) + 0.012 * std::sin(2.7 * u);
   const double roll = 0.035 * std::sin(1.1 * u) + 0.010 * std::sin(3.3 * u);
-  T.linear() = look(yaw, pitch, roll);
+  T.linear() = camera_axes(yaw, pitch, roll);
   return T;
 }
 
