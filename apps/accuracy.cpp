@@ -76,8 +76,8 @@ std::string revisits_line(const ReprojectionError& error, const RevisitSettings&
 std::string accuracy_table(const Accuracy& accuracy) {
   std::string text;
   if (const auto& t = accuracy.trajectory) {
-    text += fmt::format("  trajectory  ATE {:.4f} m   RPE {:.4f} m, {:.3f} deg   ({} poses)\n", t->ate_rmse_m,
-                        t->rpe_trans_rmse_m, t->rpe_rot_rmse_deg, t->pairs);
+    text += fmt::format("  trajectory  ATE {:.4f} m   RPE {:.4f} m, {:.3f} deg   ({} poses)\n", t->ate_m.rmse,
+                        t->rpe_trans_m.rmse, t->rpe_rot_deg.rmse, t->pairs);
   }
   for (const auto* h : {&accuracy.holdout, &accuracy.holdout_estimated})
     if (*h) text += holdout_lines(**h);

@@ -7,6 +7,7 @@
 #include "apps/accuracy.hpp"
 #include "apps/checkpoint.hpp"
 #include "apps/commands.hpp"
+#include "apps/error_tables.hpp"
 #include "apps/frame_times.hpp"
 #include "apps/graph_options.hpp"
 #include "apps/progress.hpp"
@@ -90,7 +91,9 @@ struct Run {
 
   void write(const RunSummary& summary, const Accuracy& measured) {
     write_file(folder.path() / kEffectiveGraph, graph.effective_yaml());
-    if (times) write_file(folder.path() / "times.csv", times->csv());
+    write_table("times.csv", times ? times->csv() : "");
+    write_table("trajectory_error.csv", trajectory_error_csv(measured));
+    write_table("holdout.csv", holdout_csv(measured));
     const RunReport report{graph,    summary,  executor.belief(), metrics,          workers,
                            measured, tracking(), checkpoints, start.graph_file,  folder.written()};
     write_file(folder.path() / "run.json", run_json(report));
@@ -99,6 +102,10 @@ struct Run {
   static constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
 
  private:
+  void write_table(const char* name, const std::string& csv) const {
+    if (!csv.empty()) write_file(folder.path() / name, csv);
+  }
+
   /// The first frame is done: its input could be read, so an earlier run's results may go.
   void begin_folder() {
     folder.drop_earlier_results();

@@ -104,10 +104,18 @@ Json belief_json(const ParticleSet& belief) {
 
 Json trajectory_json(const TrajectoryError& t) {
   return {{"pairs", t.pairs},
-          {"ate_rmse_m", t.ate_rmse_m},
-          {"ate_max_m", t.ate_max_m},
-          {"rpe_trans_rmse_m", t.rpe_trans_rmse_m},
-          {"rpe_rot_rmse_deg", t.rpe_rot_rmse_deg}};
+          {"ate_rmse_m", t.ate_m.rmse},
+          {"ate_mean_m", t.ate_m.mean},
+          {"ate_median_m", t.ate_m.median},
+          {"ate_max_m", t.ate_m.max},
+          {"rpe_trans_rmse_m", t.rpe_trans_m.rmse},
+          {"rpe_trans_mean_m", t.rpe_trans_m.mean},
+          {"rpe_trans_median_m", t.rpe_trans_m.median},
+          {"rpe_trans_max_m", t.rpe_trans_m.max},
+          {"rpe_rot_rmse_deg", t.rpe_rot_deg.rmse},
+          {"rpe_rot_mean_deg", t.rpe_rot_deg.mean},
+          {"rpe_rot_median_deg", t.rpe_rot_deg.median},
+          {"rpe_rot_max_deg", t.rpe_rot_deg.max}};
 }
 
 Json color_json(const ColorScore& s) {
@@ -136,7 +144,9 @@ Json holdout_json(const Holdout& h) {
           {"log_density", s.log_density},
           {"outliers", s.outliers},
           {"within_1_sigma", s.within_1_sigma},
-          {"within_2_sigma", s.within_2_sigma}};
+          {"within_2_sigma", s.within_2_sigma},
+          {"crps_mm", s.crps_mm},
+          {"calibration", {{"nominal", CalibrationCurve::nominal()}, {"measured", s.calibration}}}};
   if (h.color) json["color"] = color_json(*h.color);
   return json;
 }

@@ -122,7 +122,10 @@ std::optional<Holdout> score_holdout(const Map& map, const FrameSource& source,
     });
     for (std::size_t i = 0; i < n; ++i) {
       if (!batch[i].has_pose) continue;
-      scorer.add(batch[i].frame, batch[i].prediction, kHoldoutStep);
+      DepthScorer of_frame;
+      of_frame.add(batch[i].frame, batch[i].prediction, kHoldoutStep);
+      if (!of_frame.empty()) result.by_frame.push_back({indices[first + i], of_frame.score()});
+      scorer.add(of_frame);
       if (batch[i].prediction.color_channels > 0 && !batch[i].frame.color.empty())
         color.add(batch[i].frame, batch[i].prediction, kHoldoutStep);
       ++result.frames;

@@ -38,8 +38,15 @@ HoldoutPoses estimated_poses(std::vector<StampedPose> path, bool followed);
 /// The pixels (x, y) with x % step == y % step == step/2 of a held-out frame are compared.
 constexpr int kHoldoutStep = 8;
 
+/// What the map says of one held-out frame.
+struct FrameScore {
+  std::int64_t index = 0;  ///< of the image
+  DepthScore score;
+};
+
 struct Holdout {
   DepthScore score;
+  std::vector<FrameScore> by_frame;  ///< of those that have a measured pixel to compare, ascending
   std::optional<ColorScore> color;  ///< where map and frames have colour, and something of it was seen
   std::size_t frames = 0;  ///< held-out frames that had a pose
   std::string poses;       ///< HoldoutPoses::name

@@ -32,6 +32,7 @@ void DepthScorer::add(const Frame& frame, const Prediction& prediction, int step
       if (!prediction.hit(k)) {
         errors_m_.push_back(std::numeric_limits<double>::infinity());
         log_density_sum_ += std::log(kUniform);
+        crps_sum_m_ += kTruncation / 2;
         continue;
       }
       const double range_per_depth = prediction.camera.ray(x, y).norm();
@@ -42,13 +43,26 @@ void DepthScorer::add(const Frame& frame, const Prediction& prediction, int step
       errors_m_.push_back(std::abs(off));
       const double normal = kInlier * normal_density(off, variance), uniform = (1 - kInlier) * kUniform;
       log_density_sum_ += std::log(normal + uniform);
+      crps_sum_m_ += truncated_crps(off, std::sqrt(variance), kTruncation);
       ++covered_;
       if (normal < uniform) continue;
       ++inliers_;
       within_1_sigma_ += off * off <= variance;
       within_2_sigma_ += off * off <= 4 * variance;
+      calibration_.add(off / std::sqrt(variance));
     }
   }
+}
+
+void DepthScorer::add(const DepthScorer& other) {
+  errors_m_.insert(errors_m_.end(), other.errors_m_.begin(), other.errors_m_.end());
+  log_density_sum_ += other.log_density_sum_;
+  crps_sum_m_ += other.crps_sum_m_;
+  covered_ += other.covered_;
+  inliers_ += other.inliers_;
+  within_1_sigma_ += other.within_1_sigma_;
+  within_2_sigma_ += other.within_2_sigma_;
+  calibration_.add(other.calibration_);
 }
 
 DepthScore DepthScorer::score() const {
@@ -75,6 +89,8 @@ DepthScore DepthScorer::score() const {
   out.outliers = share(covered_ - inliers_, covered_);
   out.within_1_sigma = share(within_1_sigma_, inliers_);
   out.within_2_sigma = share(within_2_sigma_, inliers_);
+  out.calibration = calibration_.measured();
+  out.crps_mm = 1e3 * crps_sum_m_ / n;
   return out;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "framework/slam/frame.hpp"
+#include "framework/slam/normal_score.hpp"
 #include "framework/slam/prediction.hpp"
 
 namespace ppm {
@@ -21,6 +23,11 @@ struct DepthScore {
   /// Shares of the others whose error is within one and two predicted standard deviations: 0.683 and 0.954 of a normal
   /// distribution.
   double within_1_sigma = 0, within_2_sigma = 0;
+  /// Shares of the others whose error is within the central interval of each CalibrationCurve::nominal().
+  std::array<double, CalibrationCurve::kSize> calibration{};
+  /// Mean over all pixels of truncated_crps() of the normal part, distances up to 20 cm; 100 mm, a forecast that says
+  /// nothing, where nothing is predicted.
+  double crps_mm = 0;
 };
 
 /// Collects errors over frames. The predictive density of a pixel is 0.95 N(measured; expected range, variance along the
@@ -30,14 +37,19 @@ class DepthScorer {
   /// frame: the held-out image; prediction: of the same camera, same pose; pixels (x, y) with x % step == y % step == step/2
   /// of the frame's own grid are compared. The prediction's camera is the frame's decimated so (see sampling_camera).
   void add(const Frame& frame, const Prediction& prediction, int step);
+  /// Adds what another one has collected.
+  void add(const DepthScorer& other);
+  bool empty() const { return errors_m_.empty(); }
+  /// Throws DataError where it is empty.
   DepthScore score() const;
   /// The camera whose pixels are exactly the compared ones.
   static Camera sampling_camera(const Camera& camera, int step) { return camera.decimated(step, step / 2, step / 2); }
 
  private:
   std::vector<double> errors_m_;
-  double log_density_sum_ = 0;
+  double log_density_sum_ = 0, crps_sum_m_ = 0;
   std::size_t covered_ = 0, inliers_ = 0, within_1_sigma_ = 0, within_2_sigma_ = 0;
+  CalibrationCurve calibration_;
 };
 
 }  // namespace ppm

@@ -3,66 +3,103 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <tuple>
 
 #include "framework/core/error.hpp"
+#include "framework/core/timing.hpp"
 
 namespace ppm {
 
 namespace {
 
 struct Pair {
-  Pose estimated, reference;
+  StampedPose estimated;
+  Pose reference;
 };
 
-/// Each estimated pose with the reference nearest in time; a reference wanted by several goes to the nearest of them.
-/// As both paths are ordered by stamp, so are the pairs.
+/// Two poses that may be one another's partner.
+struct Candidate {
+  double dt_s;
+  std::size_t estimated, reference;
+  bool operator<(const Candidate& other) const {
+    return std::tie(dt_s, estimated, reference) < std::tie(other.dt_s, other.estimated, other.reference);
+  }
+};
+
+/// All poses at most max_dt_s apart, nearest first.
+std::vector<Candidate> candidates(const std::vector<StampedPose>& estimated, const std::vector<StampedPose>& reference,
+                                  double max_dt_s) {
+  std::vector<Candidate> all;
+  std::size_t first = 0;  // of the references that are not too early for the estimates that are left
+  for (std::size_t e = 0; e < estimated.size(); ++e) {
+    auto dt = [&](std::size_t r) { return reference[r].stamp_s - estimated[e].stamp_s; };
+    while (first < reference.size() && dt(first) < -max_dt_s) ++first;
+    for (std::size_t r = first; r < reference.size() && dt(r) <= max_dt_s; ++r) all.push_back({std::abs(dt(r)), e, r});
+  }
+  std::ranges::sort(all, std::less<>());
+  return all;
+}
+
+/// Source: the greedy rule of the TUM RGB-D benchmark's associate.py.
 std::vector<Pair> associate(const std::vector<StampedPose>& estimated, const std::vector<StampedPose>& reference,
                             double max_dt_s) {
-  std::vector<std::size_t> owner(reference.size(), estimated.size());
-  auto dt = [&](std::size_t e, std::size_t r) { return std::abs(estimated[e].stamp_s - reference[r].stamp_s); };
-  std::size_t r = 0;
-  for (std::size_t e = 0; e < estimated.size() && !reference.empty(); ++e) {
-    while (r + 1 < reference.size() && dt(e, r + 1) <= dt(e, r)) ++r;
-    if (dt(e, r) > max_dt_s) continue;
-    if (owner[r] == estimated.size() || dt(e, r) < dt(owner[r], r)) owner[r] = e;
+  const std::size_t nobody = reference.size();
+  std::vector<std::size_t> partner(estimated.size(), nobody);
+  std::vector<bool> taken(reference.size(), false);
+  for (const auto& c : candidates(estimated, reference, max_dt_s)) {
+    if (partner[c.estimated] != nobody || taken[c.reference]) continue;
+    partner[c.estimated] = c.reference;
+    taken[c.reference] = true;
   }
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < reference.size(); ++i)
-    if (owner[i] != estimated.size()) pairs.push_back({estimated[owner[i]].T_map_camera, reference[i].T_map_camera});
+  for (std::size_t e = 0; e < estimated.size(); ++e)
+    if (partner[e] != nobody) pairs.push_back({estimated[e], reference[partner[e]].T_map_camera});
   return pairs;
+}
+
+ErrorStatistics statistics(std::vector<double> errors) {
+  ErrorStatistics out;
+  double squares = 0;
+  for (double e : errors) squares += e * e;
+  out.rmse = std::sqrt(squares / static_cast<double>(errors.size()));
+  out.mean = mean(errors);
+  std::ranges::sort(errors);
+  const std::size_t middle = errors.size() / 2;
+  out.median = errors.size() % 2 ? errors[middle] : (errors[middle - 1] + errors[middle]) / 2;
+  out.max = errors.back();
+  return out;
 }
 
 void absolute_error(const std::vector<Pair>& pairs, TrajectoryError& error) {
   const auto n = static_cast<Eigen::Index>(pairs.size());
   Eigen::Matrix3Xd estimated(3, n), reference(3, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    estimated.col(i) = pairs[static_cast<std::size_t>(i)].estimated.translation();
+    estimated.col(i) = pairs[static_cast<std::size_t>(i)].estimated.T_map_camera.translation();
     reference.col(i) = pairs[static_cast<std::size_t>(i)].reference.translation();
   }
   error.T_ref_est.matrix() = Eigen::umeyama(estimated, reference, false);
-  double squares = 0, largest = 0;
+  std::vector<double> errors;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double square = (error.T_ref_est * estimated.col(i) - reference.col(i)).squaredNorm();
-    squares += square;
-    largest = std::max(largest, square);
+    const auto& pose = pairs[static_cast<std::size_t>(i)].estimated;
+    errors.push_back((error.T_ref_est * estimated.col(i) - reference.col(i)).norm());
+    error.poses.push_back({pose.frame, pose.stamp_s, errors.back()});
   }
-  error.ate_rmse_m = std::sqrt(squares / static_cast<double>(n));
-  error.ate_max_m = std::sqrt(largest);
+  error.ate_m = statistics(std::move(errors));
 }
 
 void relative_error(const std::vector<Pair>& pairs, std::size_t delta, TrajectoryError& error) {
-  double translation = 0, rotation = 0;
+  std::vector<double> translation, rotation;
   for (std::size_t i = 0; i + delta < pairs.size(); ++i) {
-    const Pose step_estimated = pairs[i].estimated.inverse() * pairs[i + delta].estimated;
+    const Pose step_estimated = pairs[i].estimated.T_map_camera.inverse() * pairs[i + delta].estimated.T_map_camera;
     const Pose step_reference = pairs[i].reference.inverse() * pairs[i + delta].reference;
     const Pose off = step_reference.inverse() * step_estimated;
-    translation += off.translation().squaredNorm();
-    rotation += std::pow(rotation_angle(off), 2);
+    translation.push_back(off.translation().norm());
+    rotation.push_back(rotation_angle(off) * 180 / std::numbers::pi);
   }
-  const auto n = static_cast<double>(pairs.size() - delta);
-  error.rpe_trans_rmse_m = std::sqrt(translation / n);
-  error.rpe_rot_rmse_deg = std::sqrt(rotation / n) * 180 / std::numbers::pi;
+  error.rpe_trans_m = statistics(std::move(translation));
+  error.rpe_rot_deg = statistics(std::move(rotation));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
 #include <thread>
 
 #include "tests/apps/command.hpp"
@@ -72,9 +74,52 @@ TEST_CASE("a run leaves its folder complete and says where it is") {
 
   CHECK(half_written(room.out).empty());
   std::vector<std::string> files = json["files"];
-  CHECK(files == std::vector<std::string>{"config.effective.yaml", "map.ppm", "metrics.csv", "trajectory.tum",
-                                          "trajectory_online.tum"});
+  CHECK(files == std::vector<std::string>{"config.effective.yaml", "holdout.csv", "map.ppm", "metrics.csv", "trajectory.tum",
+                                          "trajectory_error.csv", "trajectory_online.tum"});
   for (const auto& f : files) CHECK(std::filesystem::file_size(room.out / f) > 0);
+}
+
+TEST_CASE("a run leaves its errors frame by frame, of the same pixels and the same alignment as the totals") {
+  SmallRoom room;
+  REQUIRE(room.run()->code == 0);
+  const auto json = read_json(room.out / "run.json");
+
+  const auto path = lines(content(room.out / "trajectory_error.csv"));
+  REQUIRE(path.size() == 11);
+  CHECK(path[0] == "frame,stamp_s,error_m,online_error_m");
+  double squares = 0, online_squares = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    int frame = -1;
+    double stamp = 0, error = -1, online = -1;
+    REQUIRE(std::sscanf(path[i].c_str(), "%d,%lf,%lf,%lf", &frame, &stamp, &error, &online) == 4);
+    CHECK(frame % 5 != 2);  // held out
+    squares += error * error;
+    online_squares += online * online;
+  }
+  CHECK(std::sqrt(squares / 10) == Approx(json["trajectory"]["ate_rmse_m"].get<double>()).margin(1e-6));
+  CHECK(std::sqrt(online_squares / 10) == Approx(json["trajectory_online"]["ate_rmse_m"].get<double>()).margin(1e-6));
+
+  const auto holdout = lines(content(room.out / "holdout.csv"));
+  REQUIRE(holdout.size() == 5);
+  CHECK(holdout[0] == "poses,frame,pixels,coverage,median_mm,mean_trunc20cm_mm,log_density");
+  double pixels = 0, covered = 0;
+  for (const auto& line : holdout) {
+    if (line.rfind("reference,", 0) != 0) continue;
+    double frame = -1, n = 0, coverage = 0;
+    REQUIRE(std::sscanf(line.c_str(), "reference,%lf,%lf,%lf", &frame, &n, &coverage) == 3);
+    CHECK((frame == 2 || frame == 7));
+    pixels += n;
+    covered += n * coverage;
+  }
+  CHECK_THAT(holdout[4], Catch::StartsWith("estimated,7,"));
+  CHECK(pixels == json["holdout"]["pixels"].get<double>());
+  CHECK(covered / pixels == Approx(json["holdout"]["coverage"].get<double>()).margin(1e-5));
+  const auto& calibration = json["holdout"]["calibration"];
+  CHECK(calibration["nominal"].size() == 20);
+  CHECK(calibration["measured"].size() == 20);
+  CHECK(calibration["measured"][19].get<double>() > 0.5);
+  CHECK(json["holdout"]["crps_mm"].get<double>() > 1);
+  CHECK(json["holdout"]["crps_mm"].get<double>() < 60);
 }
 
 TEST_CASE("a run that is lost says so, in run.json and on the terminal") {

@@ -248,6 +248,26 @@ TEST_CASE("only frames up to the last mapped one are scored, and only those with
   CHECK_THROWS_AS(reference_poses(source.reference(), without.reference()), DataError);
 }
 
+TEST_CASE("each held-out frame has a score of its own") {
+  const PlaneSource source;
+  PlanePredictor predictor;
+  const auto poses = reference_poses(source.reference(), source.reference());
+  const auto result = score_holdout(PlaneMap({{0, 0, 1}, 3.01}), source, {}, kAll, predictor, poses, Workers(2));
+  REQUIRE(result->by_frame.size() == result->frames);
+  std::size_t pixels = 0;
+  double density = 0;
+  for (std::size_t i = 0; i < result->by_frame.size(); ++i) {
+    const auto& frame = result->by_frame[i];
+    CHECK(frame.index == source.held_out()[i]);
+    CHECK(frame.score.coverage == 1);
+    CHECK(frame.score.median_mm > 1);
+    pixels += frame.score.pixels;
+    density += static_cast<double>(frame.score.pixels) * frame.score.log_density;
+  }
+  CHECK(pixels == result->score.pixels);
+  CHECK(density / static_cast<double>(pixels) == Approx(result->score.log_density));
+}
+
 TEST_CASE("the score does not depend on the number of threads") {
   const PlaneSource source;
   PlanePredictor predictor;

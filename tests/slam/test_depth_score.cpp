@@ -58,6 +58,45 @@ TEST_CASE("depth score of five pixels, by hand") {
   CHECK(s.outliers == Approx(1.0 / 3));  // the pixel that is 50 standard deviations off
   CHECK(s.within_1_sigma == 0.5);
   CHECK(s.within_2_sigma == 1);
+  const double crps = ppm::truncated_crps(0.005, 0.01, 0.2) + ppm::truncated_crps(0.015, 0.01, 0.2) +
+                      ppm::truncated_crps(0.5, 0.01, 0.2) + 0.1;
+  CHECK(s.crps_mm == Approx(1e3 * crps / 4).epsilon(1e-3));
+}
+
+TEST_CASE("the calibration curve of chosen errors, by hand: inliers alone count") {
+  // 0.5, 1, 1.5 and 2 standard deviations of 1 cm off, one outlier, one miss.
+  const auto frame = row_of({2, 2, 2, 2, 2, 2});
+  ppm::DepthScorer scorer;
+  scorer.add(frame, facing(frame, {2.005f, 1.99f, 2.015f, 1.98f, 3, ppm::Prediction::kMiss}), 1);
+  const auto s = scorer.score();
+  const auto& nominal = ppm::CalibrationCurve::nominal();
+  for (std::size_t i = 0; i < nominal.size(); ++i) {
+    int within = 0;
+    for (double z : {0.5, 1.0, 1.5, 2.0}) within += std::erf(z / std::numbers::sqrt2) <= nominal[i];
+    INFO(nominal[i]);
+    CHECK(s.calibration[i] == within / 4.0);
+  }
+  CHECK(s.calibration.front() == 0);
+  CHECK(s.calibration.back() == 1);
+}
+
+TEST_CASE("what frames add to a score is the same added frame by frame or collected before") {
+  const auto a = row_of({2, 2, 2}), b = row_of({2, kNan});
+  const auto of_a = facing(a, {2.005f, 1.985f, 2.5f}), of_b = facing(b, {ppm::Prediction::kMiss, 3});
+  ppm::DepthScorer both, first, second;
+  both.add(a, of_a, 1);
+  both.add(b, of_b, 1);
+  first.add(a, of_a, 1);
+  second.add(b, of_b, 1);
+  first.add(second);
+  const auto one = both.score(), other = first.score();
+  CHECK(one.pixels == other.pixels);
+  CHECK(one.coverage == other.coverage);
+  CHECK(one.median_mm == other.median_mm);
+  CHECK(one.log_density == Approx(other.log_density));
+  CHECK(one.crps_mm == Approx(other.crps_mm));
+  CHECK(one.calibration == other.calibration);
+  CHECK(one.outliers == other.outliers);
 }
 
 TEST_CASE("no pixel is calibrated where all are outliers") {

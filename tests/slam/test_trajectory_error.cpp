@@ -43,9 +43,9 @@ TEST_CASE("a path moved as a whole has no error, and the move is found") {
   for (auto& p : reference) p.T_map_camera = T_ref_est * p.T_map_camera;
   const auto e = ppm::trajectory_error(estimated, reference);
   CHECK(e.pairs == 40);
-  CHECK(e.ate_rmse_m < 1e-12);
-  CHECK(e.rpe_trans_rmse_m < 1e-12);
-  CHECK(e.rpe_rot_rmse_deg < 1e-6);
+  CHECK(e.ate_m.rmse < 1e-12);
+  CHECK(e.rpe_trans_m.rmse < 1e-12);
+  CHECK(e.rpe_rot_deg.rmse < 1e-6);
   CHECK((e.T_ref_est.matrix() - T_ref_est.matrix()).cwiseAbs().maxCoeff() < 1e-12);
 }
 
@@ -58,15 +58,15 @@ TEST_CASE("the absolute error of a square with one corner off, by hand") {
   estimated[0].T_map_camera.translation() += Eigen::Vector3d(0.4, 0.4, 0);
   const double d = 0.4 * std::numbers::sqrt2;
   const auto e = ppm::trajectory_error(estimated, reference);
-  CHECK(e.ate_rmse_m == Approx(d * std::sqrt((9.0 + 1 + 1 + 1) / 16 / 4)));
-  CHECK(e.ate_max_m == Approx(0.75 * d));
+  CHECK(e.ate_m.rmse == Approx(d * std::sqrt((9.0 + 1 + 1 + 1) / 16 / 4)));
+  CHECK(e.ate_m.max == Approx(0.75 * d));
   CHECK(e.T_ref_est.linear().isIdentity(1e-12));
 }
 
 TEST_CASE("a path of another scale is not scaled") {
   const Path reference = path_at({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}});
   const Path estimated = path_at({{2, 0, 0}, {-2, 0, 0}, {0, 2, 0}, {0, -2, 0}});
-  CHECK(ppm::trajectory_error(estimated, reference).ate_rmse_m == Approx(1.0));
+  CHECK(ppm::trajectory_error(estimated, reference).ate_m.rmse == Approx(1.0));
 }
 
 TEST_CASE("the alignment is a rotation even where a mirror would fit better") {
@@ -83,11 +83,71 @@ TEST_CASE("the relative error of a turn that is one degree too far, by hand") {
   // The last step ends 1 degree turned and 3 cm short: two steps, one of them wrong.
   estimated[2].T_map_camera = Eigen::Translation3d(1.97, 0, 0) * Eigen::AngleAxisd(deg, Eigen::Vector3d::UnitZ());
   const auto one = ppm::trajectory_error(estimated, reference);
-  CHECK(one.rpe_trans_rmse_m == Approx(0.03 / std::numbers::sqrt2));
-  CHECK(one.rpe_rot_rmse_deg == Approx(1 / std::numbers::sqrt2));
+  CHECK(one.rpe_trans_m.rmse == Approx(0.03 / std::numbers::sqrt2));
+  CHECK(one.rpe_rot_deg.rmse == Approx(1 / std::numbers::sqrt2));
   const auto two = ppm::trajectory_error(estimated, reference, 0.02, 2);
-  CHECK(two.rpe_trans_rmse_m == Approx(0.03));
-  CHECK(two.rpe_rot_rmse_deg == Approx(1));
+  CHECK(two.rpe_trans_m.rmse == Approx(0.03));
+  CHECK(two.rpe_rot_deg.rmse == Approx(1));
+}
+
+TEST_CASE("statistics of the absolute error on a straight path, by hand: the rotation is open, the errors are not") {
+  // Off along the line by (3, -1, -1, -1) cm, on a line that was turned by a right angle and moved.
+  const Path reference = path_at({{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {30, 0, 0}});
+  const Path estimated = path_at({{5, 0.03, 7}, {5, 9.99, 7}, {5, 19.99, 7}, {5, 29.99, 7}});
+  const auto e = ppm::trajectory_error(estimated, reference);
+  CHECK(e.ate_m.rmse == Approx(0.01 * std::numbers::sqrt3).epsilon(1e-12));
+  CHECK(e.ate_m.mean == Approx(0.015).epsilon(1e-12));
+  CHECK(e.ate_m.median == Approx(0.01).epsilon(1e-12));
+  CHECK(e.ate_m.max == Approx(0.03).epsilon(1e-12));
+  CHECK(e.T_ref_est.linear().determinant() == Approx(1.0));
+  REQUIRE(e.poses.size() == 4);
+  CHECK(e.poses[0].error_m == Approx(0.03).epsilon(1e-12));
+  CHECK(e.poses[3].error_m == Approx(0.01).epsilon(1e-12));
+  CHECK(e.poses[3].frame == 3);
+  CHECK(e.poses[3].stamp_s == 3);
+}
+
+TEST_CASE("a mirrored path is turned to where its thinnest direction alone is wrong, by hand") {
+  // The covariance of the two is diag(-2, 8, 18): without mirrors the least is lost by giving up x. Off by 2 m at (+-1, 0, 0).
+  const Path reference = path_at({{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 3}, {0, 0, -3}});
+  const Path mirrored = path_at({{-1, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 3}, {0, 0, -3}});
+  const auto e = ppm::trajectory_error(mirrored, reference);
+  CHECK(e.ate_m.rmse == Approx(2 / std::numbers::sqrt3).epsilon(1e-12));
+  CHECK(e.ate_m.mean == Approx(2.0 / 3).epsilon(1e-12));
+  CHECK(e.ate_m.median == Approx(0).margin(1e-12));
+  CHECK(e.ate_m.max == Approx(2).epsilon(1e-12));
+}
+
+TEST_CASE("statistics of the relative error of four steps, by hand") {
+  const double deg = std::numbers::pi / 180, error[] = {2, 6, 1, 3};  // cm and degrees
+  const Path steps = random_path(4, 3);
+  Path reference{{0, 0, ppm::Pose::Identity()}}, estimated = reference;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ppm::Pose off(Eigen::Translation3d(0, 0.01 * error[i], 0) *
+                        Eigen::AngleAxisd(error[i] * deg, Eigen::Vector3d(0.6, 0, 0.8)));
+    const ppm::Pose step = steps[i].T_map_camera;
+    const auto stamp = static_cast<double>(i + 1);
+    reference.push_back({static_cast<std::int64_t>(i + 1), stamp, reference.back().T_map_camera * step});
+    estimated.push_back({static_cast<std::int64_t>(i + 1), stamp, estimated.back().T_map_camera * step * off});
+  }
+  const auto e = ppm::trajectory_error(estimated, reference);
+  CHECK(e.rpe_trans_m.rmse == Approx(0.01 * std::sqrt(12.5)).epsilon(1e-10));
+  CHECK(e.rpe_trans_m.mean == Approx(0.03).epsilon(1e-10));
+  CHECK(e.rpe_trans_m.median == Approx(0.025).epsilon(1e-10));
+  CHECK(e.rpe_trans_m.max == Approx(0.06).epsilon(1e-10));
+  CHECK(e.rpe_rot_deg.rmse == Approx(std::sqrt(12.5)).epsilon(1e-10));
+  CHECK(e.rpe_rot_deg.mean == Approx(3).epsilon(1e-10));
+  CHECK(e.rpe_rot_deg.median == Approx(2.5).epsilon(1e-10));
+  CHECK(e.rpe_rot_deg.max == Approx(6).epsilon(1e-10));
+}
+
+TEST_CASE("a step that ends in the right place, turned wrongly, has no relative error of translation") {
+  const Path reference = path_at({{0, 0, 0}, {1, 0, 0}});
+  Path estimated = reference;
+  estimated[1].T_map_camera.rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
+  const auto e = ppm::trajectory_error(estimated, reference);
+  CHECK(e.rpe_trans_m.rmse == Approx(0).margin(1e-12));  // (Q^-1 P): in the other order it would be sqrt(2)
+  CHECK(e.rpe_rot_deg.rmse == Approx(90));
 }
 
 TEST_CASE("poses are associated with the nearest stamp, each once") {
@@ -104,7 +164,26 @@ TEST_CASE("poses are associated with the nearest stamp, each once") {
   estimated.insert(estimated.begin() + 1, closer);
   const auto e = ppm::trajectory_error(estimated, reference);
   CHECK(e.pairs == 4);
-  CHECK(e.ate_rmse_m < 1e-12);
+  CHECK(e.ate_m.rmse < 1e-12);
+}
+
+TEST_CASE("stamps may be as far apart as is said, and no farther") {
+  const Path reference = path_at({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  CHECK(ppm::trajectory_error(path_at({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, 0.25), reference, 0.25).pairs == 3);
+  CHECK(ppm::trajectory_error(path_at({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, -0.25), reference, 0.25).pairs == 3);
+  CHECK_THROWS_AS(ppm::trajectory_error(path_at({{0, 0, 0}, {1, 0, 0}}, 0.25), reference, 0.2499), ppm::DataError);
+  CHECK(ppm::trajectory_error(reference, reference, 0).pairs == 3);
+}
+
+TEST_CASE("the nearest stamps find each other first, whoever is left takes what is left") {
+  const Path reference = path_at({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  Path estimated = path_at({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  estimated[1].stamp_s = 0.875;   // 0.125 from 1
+  estimated[2].stamp_s = 1.375;   // 0.375 from 1, which is taken; 0.625 from 2
+  CHECK(ppm::trajectory_error(estimated, reference, 0.5).pairs == 2);
+  const auto e = ppm::trajectory_error(estimated, reference, 0.625);
+  CHECK(e.pairs == 3);
+  CHECK(e.ate_m.max < 1e-12);
 }
 
 TEST_CASE("too few common poses are an error that says how many") {
