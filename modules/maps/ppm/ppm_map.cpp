@@ -55,6 +55,15 @@ std::int64_t PpmMap::account(std::unordered_set<const void*>& seen) const {
   return bytes;
 }
 
+std::shared_ptr<const PpmMap> PpmMap::unshared() const {
+  auto copy = std::make_shared<PpmMap>(*this);
+  for (std::size_t i = 0; i < copy->table_.size(); ++i) {
+    auto& chunk = copy->table_.edit(i);
+    chunk = {Cow<Geometry>::make(*chunk.geometry), Cow<Texels>::make(*chunk.texels)};
+  }
+  return copy;
+}
+
 void PpmMap::digest(Digest& digest) const {
   digest.add(settings_.cell_size_m);
   digest.add(settings_.texel_size_m);

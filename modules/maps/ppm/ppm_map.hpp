@@ -46,6 +46,8 @@ class PpmMap final : public Map {
   std::uint32_t divisions_for(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) const;
   /// By how many cells, at most, a chunk's faces reach out of its cell (an upper bound over the map's life).
   int reach() const { return reach_; }
+  /// The same map, of which no memory is shared with any other but the index of its cells.
+  std::shared_ptr<const PpmMap> unshared() const;
   /// Throws InternalError at the first broken invariant.
   void check() const;
 
