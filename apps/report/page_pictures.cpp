@@ -1,0 +1,62 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "apps/report/html_text.hpp"
+#include "apps/report/page_parts.hpp"
+
+namespace ppm::report {
+
+namespace {
+
+using Runs = std::vector<const Run*>;
+
+/// The first run of each graph, in the suite's order, that is done: by seed, so that no run is chosen by its looks.
+Runs first_done(const Comparison& c, const SequenceEntry& sequence) {
+  Runs first;
+  for (const auto& graph : c.graphs) {
+    const auto runs = c.runs_of(sequence.name, graph.name);
+    const auto done = std::ranges::find(runs, RunStatus::done, &Run::status);
+    if (done != runs.end()) first.push_back(*done);
+  }
+  return first;
+}
+
+std::string figure(const std::filesystem::path& file, const std::string& caption) {
+  const auto image = embedded_png(file, caption);
+  return image.empty() ? "" : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", image, escaped(caption));
+}
+
+/// One held-out frame: what was measured, then each graph's prediction and its error.
+std::string view_html(const Suite& suite, const Comparison& c, const Runs& runs, std::int64_t frame) {
+  std::string pictures;
+  bool measured = false;
+  for (const auto* run : runs) {
+    const auto view = std::ranges::find(run->views, frame, &View::frame);
+    if (view == run->views.end()) continue;
+    if (!measured) pictures += figure(suite.folder / view->measured, "measured");
+    measured = true;
+    const auto& title = c.graph(run->graph).title;
+    pictures += figure(suite.folder / view->predicted, title + ", predicted") + figure(suite.folder / view->error, title + ", error");
+  }
+  return pictures.empty() ? "" : fmt::format("<h4>Held-out frame {}</h4>\n<div class=\"views\">\n{}</div>\n", frame, pictures);
+}
+
+}  // namespace
+
+std::string pictures_html(const Suite& suite, const Comparison& c, const SequenceEntry& sequence) {
+  const auto runs = first_done(c, sequence);
+  std::map<std::int64_t, bool> frames;
+  for (const auto* run : runs)
+    for (const auto& view : run->views) frames[view.frame] = true;
+  std::string html, maps;
+  for (const auto& [frame, seen] : frames) html += view_html(suite, c, runs, frame);
+  if (!html.empty())
+    html = "<p>Held-out frames, evenly over the sequence, as the map of each graph's first seed shows them; errors from 0 to 5 cm.</p>\n" + html;
+  for (const auto* run : runs) maps += figure(suite.folder / run->folder / "map.png", c.graph(run->graph).title);
+  if (!maps.empty()) html += "<h4>Final maps</h4>\n<div class=\"maps\">\n" + maps + "</div>\n";
+  return html;
+}
+
+}  // namespace ppm::report

@@ -1,0 +1,174 @@
+#include <catch2/catch.hpp>
+#include <regex>
+
+#include "apps/report/report.hpp"
+#include "framework/core/error.hpp"
+#include "tests/report/suite_fixture.hpp"
+
+using namespace ppm;
+using namespace ppm::test;
+using Catch::Matchers::Contains;
+using Json = nlohmann::json;
+
+namespace {
+
+Json report_of(const SuiteFixture& suite) {
+  write_report(suite.path());
+  return Json::parse(content(suite.path() / "report.json"));
+}
+
+const Json& entry(const Json& list, const std::map<std::string, std::string>& wanted) {
+  for (const auto& item : list) {
+    bool fits = true;
+    for (const auto& [key, value] : wanted) fits = fits && item.at(key) == value;
+    if (fits) return item;
+  }
+  FAIL("no such entry");
+  return list;
+}
+
+/// Every start tag has its end tag, in order.
+void check_nesting(const std::string& html) {
+  static const std::regex tag(R"(<(/?)([a-z0-9]+)[^>]*?(/?)>)");
+  std::vector<std::string> open;
+  for (std::sregex_iterator it(html.begin(), html.end(), tag), end; it != end; ++it) {
+    const std::string name = (*it)[2];
+    if ((*it)[3].length() || name == "meta" || name == "img") continue;
+    if (!(*it)[1].length()) {
+      open.push_back(name);
+      continue;
+    }
+    REQUIRE_FALSE(open.empty());
+    REQUIRE(open.back() == name);
+    open.pop_back();
+  }
+  CHECK(open.empty());
+}
+
+}  // namespace
+
+TEST_CASE("a finished suite: four files, the same bytes again, nothing from outside") {
+  SuiteFixture suite;
+  suite.write();
+  const auto json = report_of(suite);
+  const auto html = content(suite.path() / "report.html");
+  const auto csv = content(suite.path() / "runs.csv"), md = content(suite.path() / "report.md");
+  check_nesting(html);
+  for (const char* word : {"http:", "https:", "<script", "<link", "@import", "url("}) CHECK(html.find(word) == std::string::npos);
+  CHECK_THAT(html, Contains("A suite &amp; its &lt;runs&gt;") && Contains("OpenVDB &lt;5 cm&gt;") && Contains("&lt;not&gt;"));
+  CHECK(html.find("<5 cm>") == std::string::npos);
+  CHECK_THAT(html, Contains("&#39;graph with space.yaml&#39; --seed 3"));
+  CHECK(std::ranges::count(csv, '\n') == 1 + 5 * 2 * 5);
+  CHECK_THAT(md, Contains("| PPM | 8.00 [7.68, 8.32] |"));
+  write_report(suite.path());
+  CHECK(content(suite.path() / "report.html") == html);
+  CHECK(content(suite.path() / "runs.csv") == csv);
+  CHECK(content(suite.path() / "report.md") == md);
+  CHECK(Json::parse(content(suite.path() / "report.json")) == json);
+}
+
+TEST_CASE("paired differences are decided by their interval; the losses come first") {
+  SuiteFixture suite;
+  suite.write();
+  const auto json = report_of(suite)["comparisons"][0];
+  const auto& differences = json["differences"];
+  CHECK(differences[0]["verdict"] == "worse");
+  CHECK(differences.back()["verdict"] == "better");
+  const auto& ate = entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}});
+  CHECK(ate["verdict"] == "worse");
+  CHECK(ate["basis"] == "interval");
+  CHECK(ate["median"].get<double>() == Approx(0.5));
+  CHECK(ate["interval"]["low"].get<double>() == Approx(0.48));
+  CHECK(ate["interval"]["level"].get<double>() == Approx(0.9375));
+  CHECK(ate["sign_test_p"].get<double>() == Approx(0.0625));
+  // a share that is the same in every run
+  CHECK(entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "holdout.coverage"}})["verdict"] == "tie");
+  const auto& density = entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "holdout.log_density"}});
+  CHECK(density["verdict"] == "better");
+  CHECK(density["median"].get<double>() == Approx(0.6));
+}
+
+TEST_CASE("equal memory and equal error are read off the rivals' front") {
+  SuiteFixture suite;
+  suite.write();
+  const auto json = report_of(suite)["comparisons"][0];
+  // 2 MiB is less than the coarsest grid's 4: at least its 40 mm there; and 8 mm finer than the finest one's 20 mm at 45 MiB
+  const auto& memory = entry(json["equal_cost"], {{"sequence", "kitchen"}, {"rival", "vdb"}, {"cost", "memory"}});
+  CHECK(memory["error_ratio"]["bound"] == "at most");
+  CHECK(memory["error_ratio"]["value"].get<double>() == Approx(0.2));
+  CHECK(memory["cost_ratio"]["bound"] == "at most");
+  CHECK(memory["cost_ratio"]["value"].get<double>() == Approx(2.0 / 45));
+  // a variant's sweep is a front of its own: 2 MiB lies in the middle of 1 and 4, in logarithms
+  const auto& sweep = entry(json["equal_cost"], {{"sequence", "kitchen"}, {"rival", "fine"}, {"cost", "memory"}});
+  CHECK(sweep["rival_error"]["bound"] == "exact");
+  CHECK(sweep["rival_error"]["value"].get<double>() == Approx(std::sqrt(7.9 * 8.4)));
+  const auto& claims = json["claims"];
+  CHECK(claims[0]["holds"] == "no");
+  CHECK_THAT(claims[0]["claim"].get<std::string>(), Contains("ATE"));
+  CHECK(claims.back()["holds"] == "yes");
+}
+
+TEST_CASE("what does not depend on the seed is said to") {
+  SuiteFixture suite;
+  suite.write();
+  const auto json = report_of(suite)["comparisons"][0];
+  const auto& measures = entry(json["results"], {{"sequence", "room"}, {"graph", "fine[init.size=1 cm]"}})["measures"];
+  CHECK(measures["holdout.median_mm"]["seed_changes_nothing"] == true);
+  CHECK(measures["holdout.median_mm"]["interval"].is_null());
+  CHECK(measures["times.cpu_ms_mean"]["seed_changes_nothing"] == false);  // times differ all the same
+  CHECK_THAT(content(suite.path() / "report.md"), Contains("| 7.90 = |"));
+}
+
+TEST_CASE("a run that failed is listed and counts as worse than any other; one that is missing counts nowhere") {
+  SuiteFixture suite;
+  suite.write();
+  for (const int seed : {1, 2, 3}) suite.fail("room", "vdb_2cm", seed, "out of <memory>");
+  std::filesystem::remove_all(suite.run("room", "ppm", 5));
+  const auto json = report_of(suite)["comparisons"][0];
+  const auto& result = entry(json["results"], {{"sequence", "room"}, {"graph", "vdb_2cm"}});
+  CHECK(result["runs"]["failed"] == 3);
+  CHECK(result["measures"]["trajectory.ate_rmse_m"]["median"].is_null());
+  const auto& ate = entry(json["differences"], {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}});
+  CHECK(ate["differences"].size() == 4);
+  CHECK(ate["basis"] == "few seeds");
+  CHECK(ate["verdict"] == "tie");  // three failures against one run in which the grid does better
+  CHECK_THAT(content(suite.path() / "report.html"), Contains("out of &lt;memory&gt;") && Contains("2 done, 3 failed") && Contains("1 to come"));
+  CHECK_THAT(content(suite.path() / "runs.csv"), Contains("main,room,vdb_2cm,1,failed"));
+}
+
+TEST_CASE("without a reference there are no errors, and the rest stands") {
+  SuiteFixture suite;
+  suite.reference = false;
+  suite.seeds = 1;
+  suite.write();
+  const auto json = report_of(suite)["comparisons"][0];
+  CHECK(json["claims"].empty());
+  CHECK(json["equal_cost"].empty());
+  CHECK(json["plots"].size() == 2 * 2);  // memory and time of both sequences
+  const auto& map = entry(json["differences"], {{"sequence", "room"}, {"other", "vdb_5cm"}, {"measure", "map.bytes_owned_total"}});
+  CHECK(map["verdict"] == "better");
+  CHECK(map["basis"] == "one run");
+  check_nesting(content(suite.path() / "report.html"));
+}
+
+TEST_CASE("a suite that has not begun") {
+  SuiteFixture suite;
+  suite.write();
+  std::filesystem::remove_all(suite.path() / "runs");
+  const auto json = report_of(suite)["comparisons"][0];
+  CHECK(json["differences"].empty());
+  CHECK(json["runs"].size() == 50);
+  check_nesting(content(suite.path() / "report.html"));
+}
+
+TEST_CASE("what is wrong with a folder is said") {
+  SuiteFixture suite;
+  CHECK_THROWS_WITH(write_report(suite.path()), Contains("suite.json") && Contains("folder of a suite"));
+  suite.write();
+  put(suite.run("room", "ppm", 2) / "times.csv", "frame,cpu_ms\n0,1\n1,x\n");
+  CHECK_THROWS_WITH(write_report(suite.path()), Contains("times.csv:3:1") && Contains("'x'"));
+  put(suite.run("room", "ppm", 2) / "job.json", R"({"status": "asleep"})");
+  CHECK_THROWS_WITH(write_report(suite.path()), Contains("job.json") && Contains("asleep"));
+  put(suite.path() / "suite.json", R"({"name": "x"})");
+  CHECK_THROWS_WITH(write_report(suite.path()), Contains("suite.json") && Contains("comparisons"));
+}
