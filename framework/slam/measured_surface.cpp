@@ -15,9 +15,27 @@ Eigen::Vector3f point(const Frame& frame, int x, int y) {
   return z * frame.camera.ray(x, y).cast<float>();
 }
 
-/// Of the plane through the neighbours `reach` pixels away; zero where one is beyond the image, has no return or lies
-/// across a jump.
-Eigen::Vector3f normal(const Frame& frame, int x, int y, int reach, double jump_m) {
+MeasuredSurface::Level level(const Frame& frame, int step, int reach, double jump_m) {
+  MeasuredSurface::Level out;
+  out.step = step;
+  const Camera& camera = frame.camera;
+  for (int y = step / 2; y < camera.rows; y += step) {
+    for (int x = step / 2; x < camera.cols; x += step) {
+      const int pixel = y * camera.cols + x;
+      if (!frame.valid(pixel) || at_depth_jump(frame, x, y, jump_m)) continue;
+      const Eigen::Vector3f p = point(frame, x, y), n = measured_normal(frame, x, y, reach, jump_m);
+      const float sigma = frame.sigma[static_cast<std::size_t>(pixel)];
+      out.x.push_back(p.x()), out.y.push_back(p.y()), out.z.push_back(p.z());
+      out.nx.push_back(n.x()), out.ny.push_back(n.y()), out.nz.push_back(n.z());
+      out.variance.push_back(sigma * sigma);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::Vector3f measured_normal(const Frame& frame, int x, int y, int reach, double jump_m) {
   const Camera& camera = frame.camera;
   if (x < reach || y < reach || x + reach >= camera.cols || y + reach >= camera.rows) return Eigen::Vector3f::Zero();
   const Eigen::Vector3f at = point(frame, x, y);
@@ -30,26 +48,6 @@ Eigen::Vector3f normal(const Frame& frame, int x, int y, int reach, double jump_
   if (!flat || !(length > 0)) return Eigen::Vector3f::Zero();
   return n.dot(at) > 0 ? Eigen::Vector3f(-n / length) : Eigen::Vector3f(n / length);
 }
-
-MeasuredSurface::Level level(const Frame& frame, int step, int reach, double jump_m) {
-  MeasuredSurface::Level out;
-  out.step = step;
-  const Camera& camera = frame.camera;
-  for (int y = step / 2; y < camera.rows; y += step) {
-    for (int x = step / 2; x < camera.cols; x += step) {
-      const int pixel = y * camera.cols + x;
-      if (!frame.valid(pixel) || at_depth_jump(frame, x, y, jump_m)) continue;
-      const Eigen::Vector3f p = point(frame, x, y), n = normal(frame, x, y, reach, jump_m);
-      const float sigma = frame.sigma[static_cast<std::size_t>(pixel)];
-      out.x.push_back(p.x()), out.y.push_back(p.y()), out.z.push_back(p.z());
-      out.nx.push_back(n.x()), out.ny.push_back(n.y()), out.nz.push_back(n.z());
-      out.variance.push_back(sigma * sigma);
-    }
-  }
-  return out;
-}
-
-}  // namespace
 
 void MeasuredSurface::build(const Frame& frame, const std::vector<int>& steps, double jump_m) {
   PPM_CHECK(!steps.empty(), "a measured surface has at least one level");

@@ -6,6 +6,10 @@
 
 namespace ppm {
 
+/// Unit normal of the measured surface at a pixel that has a return, camera frame, towards the camera: of the plane through
+/// the neighbours `reach` pixels away. Zero where one of them is beyond the image, has no return or lies across a jump.
+Eigen::Vector3f measured_normal(const Frame& frame, int x, int y, int reach, double jump_m);
+
 /// The points of a frame that are laid onto a predicted surface, coarse to fine: each level a regular grid of pixels, as a
 /// structure of arrays, row-major; pixels without a return, beside a depth jump, or without a normal are left out.
 /// Camera frame, m.

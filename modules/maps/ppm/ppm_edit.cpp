@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "framework/core/error.hpp"
+#include "framework/core/only_handle.hpp"
 #include "modules/maps/ppm/chunk_edit.hpp"
 #include "modules/maps/ppm/vertex_finder.hpp"
 #include "modules/maps/ppm/vertex_normals.hpp"
@@ -31,13 +32,6 @@ void sort_by_id(std::vector<NewVertex>& vertices) {
   std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   auto end = std::unique(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
   vertices.erase(end, vertices.end());
-}
-
-/// True where nobody else can get at the map any more. use_count() alone does not order us after what other threads
-/// read before they dropped their handles; taking a second handle does, because it changes the count as they did.
-bool is_only_handle(const std::shared_ptr<const PpmMap>& map) {
-  const auto second = map;
-  return map.use_count() == 2;
 }
 
 /// By how many cells b is away from a.
