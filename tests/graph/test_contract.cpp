@@ -15,7 +15,7 @@ namespace {
 
 const std::set<std::string> kCategories{"source",    "sensor",     "preprocess", "map",        "motion",   "prediction",
                                         "weighting", "recovery",  "resampling", "map_update", "refinement", "simplify",   "sink"};
-const std::set<std::string> kFacets{"belief", "prediction", "prediction.elements", "fit", "motion.prior", "map.ppm", "map.vdb", "map.*"};
+const std::set<std::string> kFacets{"belief", "prediction", "prediction.elements", "fit", "motion.prior", "map.points", "map.ppm", "map.vdb", "map.*"};
 const std::regex kLowerSnake("[a-z][a-z0-9_]*");
 
 void check_each(const std::function<void(const ModuleInfo&, Module&)>& check) {

@@ -1,8 +1,7 @@
 #include "modules/maps/ppm/ppm_codec.hpp"
 
-#include <unordered_map>
-
 #include "framework/core/error.hpp"
+#include "framework/slam/map_parts.hpp"
 #include "modules/maps/ppm/chunk_record.hpp"
 
 // Records: how many parts of each sort; each table of cells; each geometry; each texture; each map, whose chunks are numbers of parts.
@@ -12,22 +11,6 @@ namespace {
 
 using Table = ChunkTable<PpmChunk>;
 using Cells = std::vector<Cell>;
-
-/// Distinct parts in the order in which they are met.
-template <class T>
-class Parts {
- public:
-  std::uint32_t number(const T* part) {
-    const auto [it, added] = number_.emplace(part, static_cast<std::uint32_t>(parts_.size()));
-    if (added) parts_.push_back(part);
-    return it->second;
-  }
-  const std::vector<const T*>& all() const { return parts_; }
-
- private:
-  std::unordered_map<const T*, std::uint32_t> number_;
-  std::vector<const T*> parts_;
-};
 
 template <class Part>
 void save_parts(const std::vector<const Part*>& parts, RecordFileWriter& file) {
@@ -49,12 +32,6 @@ std::vector<Cow<Part>> load_parts(std::uint64_t count, const char* what, RecordF
   return parts;
 }
 
-template <class T>
-const T& at(const std::vector<T>& parts, std::uint32_t number, const RecordReader& in) {
-  if (number >= parts.size()) in.fail("names a part that is not there");
-  return parts[number];
-}
-
 /// A table of empty chunks with these cells.
 Table table_of(const Cells& cells) {
   Table table;
@@ -65,9 +42,9 @@ Table table_of(const Cells& cells) {
 }  // namespace
 
 void PpmCodec::save(const std::vector<const Map*>& maps, RecordFileWriter& file) const {
-  Parts<Cells> cells;
-  Parts<Geometry> geometries;
-  Parts<Texels> textures;
+  MapParts<Cells> cells;
+  MapParts<Geometry> geometries;
+  MapParts<Texels> textures;
   std::vector<RecordWriter> tables;
   for (const Map* map : maps) {
     const auto& mesh = static_cast<const PpmMap&>(*map);
@@ -126,11 +103,11 @@ MapHandle PpmCodec::take_map(RecordReader& in, const Shared& shared) {
   in.take(map->next_vertex_id_);
   in.take(map->reach_);
   const auto cells = in.take<std::uint32_t>();
-  if (cells != Table::kNone) map->table_ = at(shared.tables, cells, in);
+  if (cells != Table::kNone) map->table_ = part_of(shared.tables, cells, in);
   std::vector<PpmChunk> chunks;
   for (auto n = in.take<std::uint64_t>(); n > 0; --n) {
-    const auto& geometry = at(shared.geometries, in.take<std::uint32_t>(), in);
-    chunks.push_back({geometry, at(shared.textures, in.take<std::uint32_t>(), in)});
+    const auto& geometry = part_of(shared.geometries, in.take<std::uint32_t>(), in);
+    chunks.push_back({geometry, part_of(shared.textures, in.take<std::uint32_t>(), in)});
   }
   if (chunks.size() != map->table_.size()) in.fail("has not a chunk for each cell");
   chunks.shrink_to_fit();
