@@ -15,7 +15,7 @@ struct PointUpdateSettings {
   float gate_pose_m = 0.01f;  ///< ... to which this one is added for the error of the pose and of the map ...
   float map_sigma_most_m = 0.01f;  ///< ... and the disc's own, but not more than this
   float agree_cosine = 0.5f;       ///< and their normals no farther apart
-  float sigma_least_m = 5e-4f;     ///< no point becomes surer than this by its measurements: it stays open to change
+  float sigma_least_m = 1e-4f;     ///< no point becomes surer than this by its measurements: it stays open to change
 
   // New points.
   float cosine_least = 0.2f;    ///< surface seen more slantingly makes none
