@@ -57,7 +57,7 @@ struct Run {
   }
 
   RunSummary frames(bool quiet, bool keep_times) {
-    StopSignal stop;
+    StopSignal stop("finishing this frame and writing the results");
     if (from) {
       from->restore(executor);
       from.reset();

@@ -14,6 +14,7 @@ void add_describe(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_graph(CLI::App& app);
 void add_evaluate(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_calibrate(CLI::App& app);
 void add_export(CLI::App& app);

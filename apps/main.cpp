@@ -29,6 +29,7 @@ int run_command(int argc, char** argv) {
   ppm::add_schema(app);
   ppm::add_graph(app);
   ppm::add_evaluate(app);
+  ppm::add_compare(app);
   ppm::add_plot(app);
   ppm::add_calibrate(app);
   ppm::add_export(app);

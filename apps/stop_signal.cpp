@@ -1,21 +1,25 @@
 #include "apps/stop_signal.hpp"
 
 #include <signal.h>
-#include <string_view>
 #include <unistd.h>
 
 namespace ppm {
 
 namespace {
 
-constexpr std::string_view kMessage = "\ninterrupted: finishing this frame and writing the results (again to abort)\n";
-
 std::atomic<bool> stop_requested = false;
+std::string_view what_follows;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not take a lock");
+
+void tell(std::string_view text) {
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+}
 
 void on_signal(int) {
   stop_requested = true;
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
+  tell("\ninterrupted: ");
+  tell(what_follows);
+  tell(" (again to abort)\n");
 }
 
 void handle(int signal, void (*handler)(int)) {
@@ -27,7 +31,8 @@ void handle(int signal, void (*handler)(int)) {
 
 }  // namespace
 
-StopSignal::StopSignal() {
+StopSignal::StopSignal(std::string_view what_now) {
+  what_follows = what_now;
   stop_requested = false;
   handle(SIGINT, on_signal);
   handle(SIGTERM, on_signal);

@@ -24,7 +24,6 @@ class GraphBuilder {
   };
 
   // read_graph.cpp: keys, nodes, modules and their parameters
-  void override_tree(Config& file, const std::vector<Override>& overrides);
   void read_file(const Config& file);
   std::int64_t read_count(const Config& file, const std::string& key);
   void read_plugins(const Config& list);

@@ -1,3 +1,5 @@
+#include "framework/graph/override.hpp"
+
 #include "framework/graph/graph_builder.hpp"
 
 namespace ppm {
@@ -18,28 +20,34 @@ Override parse_override(const std::string& text) {
   return result;
 }
 
-void GraphBuilder::override_tree(Config& file, const std::vector<Override>& overrides) {
+namespace {
+
+/// The node of that name, or null after a report.
+Config* find_node(Config& nodes, const Override& o, Diagnostics& mistakes) {
+  std::vector<std::string> names;
+  for (auto& node : nodes.items()) {
+    const Config* name = node.kind() == Config::Kind::map ? node.find("name") : nullptr;
+    if (!name) continue;
+    if (name->text() == o.node) return &node;
+    names.push_back(name->text());
+  }
+  mistakes.push_back({o.value.place(), fmt::format("no node '{}'{}", o.node, suggestion(o.node, names))});
+  return nullptr;
+}
+
+}  // namespace
+
+void apply_overrides(const std::vector<Override>& overrides, Config& file, Diagnostics& mistakes) {
   for (const auto& o : overrides) {
     if (o.node.empty()) {
       file.set(o.key, o.value.place(), o.value);
       continue;
     }
     Config* nodes = file.find("nodes");
-    if (!nodes) continue;
-    std::vector<std::string> names;
-    Config* found = nullptr;
-    for (auto& node : nodes->items()) {
-      const Config* name = node.kind() == Config::Kind::map ? node.find("name") : nullptr;
-      if (!name) continue;
-      names.push_back(name->text());
-      if (name->text() == o.node && !found) found = &node;
-    }
-    if (!found) {
-      report(o.value.place(), fmt::format("no node '{}'{}", o.node, suggestion(o.node, names)));
-      continue;
-    }
-    if (!found->find("params")) found->set("params", o.value.place(), Config());
-    Config& params = *found->find("params");
+    Config* node = nodes ? find_node(*nodes, o, mistakes) : nullptr;
+    if (!node) continue;
+    if (!node->find("params")) node->set("params", o.value.place(), Config());
+    Config& params = *node->find("params");
     const bool settable = params.kind() == Config::Kind::map || params.kind() == Config::Kind::null;
     if (settable) params.set(o.key, o.value.place(), o.value);  // else reading the node says what is wrong
   }

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "framework/graph/graph_builder.hpp"
+#include "framework/graph/override.hpp"
 
 namespace ppm {
 
@@ -45,7 +46,7 @@ Graph GraphBuilder::build(Config file, const std::vector<Override>& overrides) {
   if (file.kind() != Config::Kind::map) {
     throw ConfigError(file.place(), fmt::format("a graph file is a map with name and nodes, not {}", a_kind(file)));
   }
-  override_tree(file, overrides);
+  apply_overrides(overrides, file, mistakes_);
   read_file(file);
   wire();
   check_source(file);
