@@ -5,7 +5,7 @@ packages=(
   build-essential cmake ninja-build ccache mold pkg-config git
   libeigen3-dev libembree-dev libhwy-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   libtbb-dev librandom123-dev libpng-dev libjpeg-dev zlib1g-dev libxxhash-dev libboost-dev libmeshoptimizer-dev
-  libopenvdb-dev libboost-iostreams-dev
+  libopenvdb-dev libopenvdb-tools libboost-iostreams-dev
   libegl-dev libgl-dev libegl1 libgl1-mesa-dri
   catch2 libopenmesh-dev libtinygltf-dev libbenchmark-dev libmrpt-poses-dev libmrpt-obs-dev libmrpt-bayes-dev jq
 )

@@ -49,15 +49,10 @@ Cell VdbTile::origin() const {
   return {o.x(), o.y(), o.z()};
 }
 
-Cell VdbTile::origin_of(int leaf) const {
-  constexpr int m = (1 << kVdbTileLog2) - 1;
-  return origin() + kVdbLeafEdge * Cell((leaf >> (2 * kVdbTileLog2)) & m, (leaf >> kVdbTileLog2) & m, leaf & m);
-}
-
 VdbCode* VdbTile::write(int leaf) {
   auto& codes = codes_[static_cast<std::size_t>(leaf)];
   if (!codes) {
-    auto* made = new Leaf(coord(origin_of(leaf)), constant(leaf), constant(leaf) != kVdbUnknown);
+    auto* made = new Leaf(coord(origin() + offset(leaf)), constant(leaf), constant(leaf) != kVdbUnknown);
     node_->addLeaf(made);
     codes = made->buffer().data();
   }

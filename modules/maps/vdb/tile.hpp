@@ -44,6 +44,11 @@ class VdbTile {
   ~VdbTile();
 
   Cell origin() const;
+  /// Where a leaf begins in its tile, voxels.
+  static Cell offset(int leaf) {
+    constexpr int m = (1 << kVdbTileLog2) - 1;
+    return kVdbLeafEdge * Cell((leaf >> (2 * kVdbTileLog2)) & m, (leaf >> kVdbTileLog2) & m, leaf & m);
+  }
   /// The voxels of a leaf (see vdb_voxel), or null where all are constant(leaf).
   const VdbCode* leaf(int leaf) const { return codes_[static_cast<std::size_t>(leaf)]; }
   VdbCode constant(int leaf) const { return constant_[static_cast<std::size_t>(leaf)]; }
@@ -66,7 +71,6 @@ class VdbTile {
 
  private:
   struct Node;
-  Cell origin_of(int leaf) const;
   std::unique_ptr<Node> node_;
   std::array<VdbCode*, kVdbTileLeaves> codes_{};  // of the node's leaves, for those who walk through them
   std::array<VdbCode, kVdbTileLeaves> constant_{};

@@ -1,16 +1,8 @@
 #include "modules/maps/vdb/vdb_edit.hpp"
 
+#include "framework/core/only_handle.hpp"
+
 namespace ppm {
-namespace {
-
-/// True where nobody else can get at the map any more. use_count() alone does not order us after what other threads
-/// read before they dropped their handles; taking a second handle does, because it changes the count as they did.
-bool is_only_handle(const std::shared_ptr<const VdbMap>& map) {
-  const auto second = map;
-  return map.use_count() == 2;
-}
-
-}  // namespace
 
 VdbEdit::VdbEdit(std::shared_ptr<const VdbMap> map)
     : map_(is_only_handle(map) ? std::const_pointer_cast<VdbMap>(std::move(map)) : std::make_shared<VdbMap>(*map)) {}

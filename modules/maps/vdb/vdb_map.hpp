@@ -12,8 +12,8 @@ namespace ppm {
 /// Fixed when a map is made.
 struct VdbSettings {
   double voxel_size_m = 0.02;
-  float log_odds_min = -4;  ///< clamps of a voxel's log-odds
-  float log_odds_max = 6;
+  float log_odds_min = -30;  ///< clamps of a voxel's log-odds
+  float log_odds_max = 60;
 };
 
 /// An occupancy grid: log-odds in OpenVDB nodes, cut into tiles that copies of the map share until they are written.
