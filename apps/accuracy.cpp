@@ -4,17 +4,13 @@
 
 #include "framework/roles/frame_source.hpp"
 #include "framework/roles/online_path.hpp"
+#include "framework/roles/seen_surface.hpp"
 #include "framework/roles/sensor_models.hpp"
 #include "framework/roles/view_predictor.hpp"
 
 namespace ppm {
 
 namespace {
-
-bool can_see(const ViewPredictor& predictor, const Map& map) {
-  const auto& needs = predictor.belief.facets().needs;
-  return std::ranges::find(needs, fmt::format("map.{}", map.kind())) != needs.end();
-}
 
 std::string holdout_lines(const Holdout& h) {
   const auto& s = h.score;
@@ -28,7 +24,31 @@ std::string holdout_lines(const Holdout& h) {
   return text;
 }
 
+/// T_map_world: see map_from_reference().
+std::optional<SurfaceScore> measure_surface(const Map& map, const Pose& T_map_world, const FrameSource& source,
+                                            std::int64_t last, const Workers& workers) {
+  const auto truth = source.true_surface();
+  if (!truth) return std::nullopt;
+  const auto seen = seen_surface(*truth, source, last, workers);
+  if (seen.empty()) return std::nullopt;
+  return score_surface(map.mesh(Surface::displaced), T_map_world.inverse(), *truth, seen, workers);
+}
+
+std::string surface_line(const SurfaceScore& s) {
+  return fmt::format(
+      "  surface     accuracy {:.2f} mm   completeness {:.2f} mm (medians)   within 2 cm: precision {:.4f}   recall {:.4f}   "
+      "F {:.4f}\n",
+      s.accuracy.median_mm, s.completeness.median_mm, s.precision(), s.recall(), s.f_score());
+}
+
 }  // namespace
+
+ViewPredictor* predictor_for(const Graph& graph, const Map& map) {
+  auto* predictor = graph.first<ViewPredictor>();
+  if (!predictor) return nullptr;
+  const auto& needs = predictor->belief.facets().needs;
+  return std::ranges::find(needs, fmt::format("map.{}", map.kind())) != needs.end() ? predictor : nullptr;
+}
 
 Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& path, std::int64_t last_index,
                           const Map* map, HoldoutFrom from, const Workers& workers) {
@@ -38,8 +58,11 @@ Accuracy measure_accuracy(const Graph& graph, const std::vector<StampedPose>& pa
   const auto reference = source->reference(last_index);
   if (path.size() >= 2 && reference.size() >= 2) result.trajectory = trajectory_error(path, reference);
 
-  auto* predictor = graph.first<ViewPredictor>();
-  if (source->held_out().empty() || !predictor || !map || !can_see(*predictor, *map)) return result;
+  if (map && !reference.empty())
+    result.surface = measure_surface(*map, map_from_reference(path, reference), *source, last_index, workers);
+
+  auto* predictor = map ? predictor_for(graph, *map) : nullptr;
+  if (source->held_out().empty() || !predictor) return result;
   if (from == HoldoutFrom::reference && reference.empty())
     throw ConfigError({}, "the source has no reference poses to predict held-out frames from; use --poses estimated");
   auto score = [&](const HoldoutPoses& poses) {
@@ -81,6 +104,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
   }
   for (const auto* h : {&accuracy.holdout, &accuracy.holdout_estimated})
     if (*h) text += holdout_lines(**h);
+  if (accuracy.surface) text += surface_line(*accuracy.surface);
   if (accuracy.revisits) text += revisits_line(*accuracy.revisits, {});
   return text;
 }

@@ -8,6 +8,7 @@
 #include "framework/roles/holdout.hpp"
 #include "framework/roles/revisits.hpp"
 #include "framework/slam/estimate.hpp"
+#include "framework/slam/surface_score.hpp"
 #include "framework/slam/trajectory_error.hpp"
 
 namespace ppm {
@@ -21,8 +22,12 @@ struct Accuracy {
   /// Where frames were held out and the graph has a view predictor: looked at from the reference poses, where the source
   /// has them, and from the path's own, where these are not the reference.
   std::optional<Holdout> holdout, holdout_estimated;
+  std::optional<SurfaceScore> surface;  ///< of the map, where the source knows its true surface and saw something of it
   std::optional<ReprojectionError> revisits;  ///< where a place was seen again; of the path's own poses
 };
+
+/// The graph's first view predictor, where it can look at maps of this kind; else null.
+ViewPredictor* predictor_for(const Graph& graph, const Map& map);
 
 enum class HoldoutFrom { both, reference, estimated };
 

@@ -64,7 +64,12 @@ void evaluate_map(const MapOptions& o) {
   if (!source) throw ConfigError(Place{options.file.string()}, "the graph has no source to take held-out frames from");
   const auto last_index = last_index_of_run(o.run);
   const auto path = read_tum(o.run / "trajectory.tum");
-  const auto map = load_ppm(o.run / "map.ppm");
+  const auto file = o.run / "map.ppm";
+  if (!std::filesystem::exists(file))
+    throw ConfigError(Place{o.run.string()},
+                      "holds no map.ppm (sink.map_ppm), which this command reads; maps of other kinds are measured by the run "
+                      "itself: run.json, holdout.csv");
+  const auto map = load_ppm(file);
   source->open_for_evaluation();
   const Accuracy accuracy = measure_accuracy(graph, path, last_index, map.get(), o.poses, Workers(o.threads));
   if (!accuracy.holdout && !accuracy.holdout_estimated)

@@ -13,6 +13,7 @@
 #include "apps/progress.hpp"
 #include "apps/run_folder.hpp"
 #include "apps/run_report.hpp"
+#include "apps/run_views.hpp"
 #include "apps/stop_signal.hpp"
 #include "framework/core/atomic_file.hpp"
 
@@ -25,6 +26,7 @@ struct RunOptions {
   std::filesystem::path out, resume;
   std::optional<std::int64_t> frames;
   int threads = 0;
+  std::size_t views = 0;
   bool force = false, quiet = false, times = false;
 };
 
@@ -75,15 +77,17 @@ struct Run {
     return executor.run(start.max_frames, stop.requested());
   }
 
-  Accuracy accuracy() const {
+  /// Measures path and map, and draws so many views of it.
+  Accuracy accuracy(std::size_t views) const {
     const auto& belief = executor.belief();
     if (belief.size() == 0) return {};
     const auto best = belief.best();
     const auto path = belief.trajectory[best].poses();
     if (path.empty()) return {};
-    auto accuracy =
-        measure_accuracy(graph, path, path.back().frame, belief.map[best].get(), HoldoutFrom::both, workers);
+    const Map* map = belief.map[best].get();
+    auto accuracy = measure_accuracy(graph, path, path.back().frame, map, HoldoutFrom::both, workers);
     measure_path(graph, path, workers, accuracy);
+    if (views > 0) write_views(folder.path(), graph, path, path.back().frame, map, views, workers);
     return accuracy;
   }
 
@@ -133,7 +137,7 @@ bool run(const RunOptions& options) {
   Accuracy measured;
   std::exception_ptr broken;  // a held-out frame or a reference pose: the run itself is sound and is written
   try {
-    measured = run.accuracy();
+    measured = run.accuracy(options.views);
   } catch (const DataError&) {
     broken = std::current_exception();
   }
@@ -174,6 +178,12 @@ void add_options(CLI::App& command, RunOptions& options) {
   command.add_flag("--quiet", options.quiet, "Only warnings and errors");
   command.add_flag("--times", options.times,
                    "Also writes times.csv: time and memory of the process, frame by frame (of this part of the run)");
+  command
+      .add_option("--views", options.views,
+                  "Also draws so many of the held-out frames, evenly over the run: as measured, as the map predicts them, "
+                  "and the error (folder views)")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
   command
       .add_option("--checkpoint-every", options.graph.checkpoint_every,
                   "Keeps the state of the run each N frames, in place of the graph's checkpoint_every; 0 is never")

@@ -11,11 +11,22 @@ namespace {
 
 constexpr const char* kReport = "run.json";
 
+/// Of the files in a run's folder and in its one folder for pictures, by name within the former.
 std::map<std::string, std::filesystem::file_time_type> file_times(const std::filesystem::path& folder) {
   std::map<std::string, std::filesystem::file_time_type> times;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_regular_file()) times[entry.path().filename().string()] = entry.last_write_time();
+  for (const auto& part : {folder, folder / kViews}) {
+    if (!std::filesystem::is_directory(part)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(part))
+      if (entry.is_regular_file())
+        times[entry.path().lexically_relative(folder).generic_string()] = entry.last_write_time();
+  }
   return times;
+}
+
+/// Of a file in the folder or in its one for pictures, never a way out.
+bool is_inside(const std::string& name) {
+  const std::filesystem::path path(name);
+  return path.filename() == name || std::filesystem::path(kViews) / path.filename() == path;
 }
 
 /// What an earlier run left: the files that its run.json lists, and those that every run has. A run that was killed has no list.
@@ -25,9 +36,7 @@ std::vector<std::string> files_of_run(const std::filesystem::path& folder) {
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) return files;
   for (const auto& name : json["files"]) {
-    // A name, never a way out of the folder.
-    if (name.is_string() && std::filesystem::path(name.get<std::string>()).filename() == name.get<std::string>())
-      files.push_back(name.get<std::string>());
+    if (name.is_string() && is_inside(name.get<std::string>())) files.push_back(name.get<std::string>());
   }
   return files;
 }
@@ -66,6 +75,8 @@ void RunFolder::drop_earlier_results() {
     if (file != now.end() && file->second == before_[name]) std::filesystem::remove(path_ / name);
   }
   earlier_.clear();
+  std::error_code not_empty;
+  std::filesystem::remove(path_ / kViews, not_empty);
 }
 
 std::vector<std::string> RunFolder::written() const {

@@ -8,6 +8,7 @@ namespace ppm {
 
 constexpr const char* kEffectiveGraph = "config.effective.yaml";
 constexpr const char* kCheckpoint = "run.checkpoint";
+constexpr const char* kViews = "views";  ///< a folder in it, for pictures
 
 /// The folder that a run writes to. It may be new, empty, or of an earlier run, whose results this one replaces.
 class RunFolder {
@@ -26,7 +27,7 @@ class RunFolder {
   /// Removes what the earlier run left and this one has not written yet. For when the first frame is
   /// done: a run whose input cannot be read leaves the earlier results alone.
   void drop_earlier_results();
-  /// Names of the files that this run has written, in alphabetical order.
+  /// Names of the files that this run has written, in alphabetical order, those of pictures with their folder.
   std::vector<std::string> written() const;
 
  private:

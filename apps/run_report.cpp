@@ -151,6 +151,27 @@ Json holdout_json(const Holdout& h) {
   return json;
 }
 
+/// Keys begin with `name`.
+void add_distances(Json& json, const std::string& name, const SurfaceDistances& d) {
+  json[name + "_median_mm"] = number(d.median_mm);  // infinite or none where the map is empty
+  json[name + "_mean_mm"] = number(d.mean_mm);
+  json[name + "_within_1cm"] = d.within_1cm;
+  json[name + "_within_2cm"] = d.within_2cm;
+  json[name + "_within_5cm"] = d.within_5cm;
+}
+
+Json surface_json(const SurfaceScore& s) {
+  Json json;
+  add_distances(json, "accuracy", s.accuracy);
+  add_distances(json, "completeness", s.completeness);
+  json["precision_2cm"] = s.precision();
+  json["recall_2cm"] = s.recall();
+  json["f_score_2cm"] = s.f_score();
+  json["samples"] = s.accuracy.points;
+  json["seen_points"] = s.completeness.points;
+  return json;
+}
+
 Json reprojection_json(const ReprojectionError& e, const RevisitSettings& settings) {
   return {{"gap", settings.gap},
           {"gap_is_exact", settings.form == RevisitSettings::Gap::exactly},
@@ -169,6 +190,7 @@ void add_accuracy(Json& json, const Accuracy& accuracy) {
   }
   if (accuracy.holdout) json["holdout"] = holdout_json(*accuracy.holdout);
   if (accuracy.holdout_estimated) json["holdout_estimated"] = holdout_json(*accuracy.holdout_estimated);
+  if (accuracy.surface) json["surface"] = surface_json(*accuracy.surface);
   if (accuracy.revisits) json["revisits"] = reprojection_json(*accuracy.revisits, {});
 }
 

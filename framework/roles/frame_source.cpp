@@ -162,6 +162,11 @@ double FrameSource::stamp_s(std::int64_t index) const {
   return sequence_->stamp_s(index);
 }
 
+std::unique_ptr<const TrueSurface> FrameSource::true_surface() const {
+  PPM_CHECK(sequence_, "the source is not open");
+  return sequence_->true_surface();
+}
+
 std::vector<StampedPose> FrameSource::reference(std::int64_t last) const {
   PPM_CHECK(sequence_, "the source is not open");
   std::vector<StampedPose> path;

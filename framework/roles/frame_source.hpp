@@ -43,6 +43,8 @@ class FrameSource : public Module {
   /// The same with another correction of the camera than the parameters'.
   Frame full_frame(std::int64_t index, const CameraCorrection& correction) const;
   const CameraCorrection& camera_correction() const { return conditioning_.correction; }
+  /// What the images show, where it is known exactly: see FrameSequence::true_surface(). Valid after open().
+  std::unique_ptr<const TrueSurface> true_surface() const;
   /// The reference path over the images that are given, up to the image `last`, that have a pose; empty where the source has none.
   /// Valid after open(). Throws DataError where a pose is broken.
   std::vector<StampedPose> reference(std::int64_t last = std::numeric_limits<std::int64_t>::max()) const;

@@ -80,13 +80,17 @@ void look(const Map& map, const ViewPredictor& predictor, const HoldoutPoses& po
 
 }  // namespace
 
-HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference) {
+Pose map_from_reference(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference) {
   const auto pairs = pairs_of(path, reference);
   if (pairs.empty()) throw DataError("the trajectory", "none of its poses has a reference pose");
-  if (pairs.size() == path.size() && std::ranges::all_of(pairs, is_same))
-    return {kReferencePoses, [](const Frame& f) { return f.T_world_camera_ref; }};
-  const Pose T_map_ref = align_poses(pairs);
-  return {"reference, aligned", [T_map_ref](const Frame& f) -> std::optional<Pose> {
+  const bool same = pairs.size() == path.size() && std::ranges::all_of(pairs, is_same);
+  return same ? Pose::Identity() : align_poses(pairs);
+}
+
+HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference) {
+  const Pose T_map_ref = map_from_reference(path, reference);
+  const bool same = T_map_ref.matrix() == Pose::Identity().matrix();
+  return {same ? kReferencePoses : "reference, aligned", [T_map_ref](const Frame& f) -> std::optional<Pose> {
             if (!f.T_world_camera_ref) return std::nullopt;
             return T_map_ref * *f.T_world_camera_ref;
           }};

@@ -25,11 +25,12 @@ struct HoldoutPoses {
   std::function<std::optional<Pose>(const Frame&)> T_map_camera;
 };
 
-/// The frames' reference poses. Where `path` is the reference itself (mapping with known poses) the map is in the
-/// reference's frame; else they are moved into the map's frame by the rigid motion that takes the reference's poses
-/// nearest to the path's, over all frames that both have: the chordal mean of the rotations, then the mean of the
-/// translations. (The alignment of the trajectory error looks at positions alone, which leaves the rotation open on a
-/// straight or a short path.) Throws DataError where they have no frame in common.
+/// T_map_ref: the identity where `path` is the reference itself (mapping with known poses: the map is in the reference's
+/// frame); else the rigid motion that takes the reference's poses nearest to the path's, over all frames that both have: the
+/// chordal mean of the rotations, then the mean of the translations. (The alignment of the trajectory error looks at positions
+/// alone, which leaves the rotation open on a straight or a short path.) Throws DataError where they have no frame in common.
+Pose map_from_reference(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference);
+/// The frames' reference poses, moved by map_from_reference().
 HoldoutPoses reference_poses(const std::vector<StampedPose>& path, const std::vector<StampedPose>& reference);
 /// The path's own poses of the frames, where it followed them. Else interpolated by stamp between neighbouring poses of the
 /// path, which is worse than what the filter would have found; none before its first and after its last pose.

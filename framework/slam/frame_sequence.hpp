@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/slam/frame.hpp"
+#include "framework/slam/true_surface.hpp"
 
 namespace ppm {
 
@@ -25,6 +27,9 @@ class FrameSequence {
   virtual double stamp_s(std::int64_t index) const = 0;
   /// The pose that read() would give, without reading the image.
   virtual std::optional<Pose> reference_pose(std::int64_t index) const = 0;
+  /// What the images show, where it is known exactly, in the frame of the reference poses; else null. Valid while the sequence
+  /// lives.
+  virtual std::unique_ptr<const TrueSurface> true_surface() const { return nullptr; }
   /// What is odd about the data and does not forbid its use (gaps in the numbering), a sentence each; logged once.
   virtual std::vector<std::string> remarks() const { return {}; }
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "framework/slam/nearest_triangle.hpp"
+
 namespace ppm {
 
 std::vector<StampedPose> sampled(const CameraPath& path, double rate_Hz, std::int64_t frames) {
@@ -17,17 +19,41 @@ std::vector<StampedPose> sampled(const CameraPath& path, double rate_Hz, std::in
   return poses;
 }
 
-MeshSequence::MeshSequence(std::string name, const TriangleMesh& mesh, const MeshCamera& camera, std::uint64_t seed,
+namespace {
+
+class MeshSurface final : public TrueSurface {
+ public:
+  MeshSurface(const TriangleMesh& mesh, const MeshRays& rays) : rays_(rays), triangles_(mesh.position, mesh.face) {}
+  void cast(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3f> direction,
+            std::span<float> range_m) const override {
+    std::vector<MeshHit> hits(direction.size());
+    rays_.cast(origin, direction, hits);
+    std::ranges::transform(hits, range_m.begin(), &MeshHit::range_m);
+  }
+  double distance(const Eigen::Vector3d& p) const override { return triangles_.distance(p.cast<float>()); }
+
+ private:
+  const MeshRays& rays_;
+  NearestTriangle triangles_;
+};
+
+}  // namespace
+
+MeshSequence::MeshSequence(std::string name, TriangleMesh mesh, const MeshCamera& camera, std::uint64_t seed,
                            CameraJourney journey)
-    : name_(std::move(name)), mesh_(mesh), camera_(camera), seed_(seed), journey_(std::move(journey)) {}
+    : name_(std::move(name)), mesh_(std::move(mesh)), rays_(mesh_), camera_(camera), seed_(seed), journey_(std::move(journey)) {}
 
 Frame MeshSequence::read(std::int64_t index) const {
   Frame frame;
   frame.index = index;
   frame.stamp_s = stamp_s(index);
   frame.T_world_camera_ref = reference_pose(index);
-  camera_.render(mesh_, *frame.T_world_camera_ref, seed_, frame);
+  camera_.render(rays_, *frame.T_world_camera_ref, seed_, frame);
   return frame;
+}
+
+std::unique_ptr<const TrueSurface> MeshSequence::true_surface() const {
+  return std::make_unique<MeshSurface>(mesh_, rays_);
 }
 
 void MeshSequence::add_motion(double after_s, Frame& image) const {

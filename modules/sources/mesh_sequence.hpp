@@ -25,7 +25,7 @@ std::vector<StampedPose> sampled(const CameraPath& path, double rate_Hz, std::in
 /// The images that a simulated camera takes of a mesh. The moving body is the camera.
 class MeshSequence final : public FrameSequence {
  public:
-  MeshSequence(std::string name, const TriangleMesh& mesh, const MeshCamera& camera, std::uint64_t seed, CameraJourney journey);
+  MeshSequence(std::string name, TriangleMesh mesh, const MeshCamera& camera, std::uint64_t seed, CameraJourney journey);
 
   std::string name() const override { return name_; }
   std::int64_t size() const override { return static_cast<std::int64_t>(journey_.poses.size()); }
@@ -33,12 +33,14 @@ class MeshSequence final : public FrameSequence {
   std::optional<Pose> reference_pose(std::int64_t index) const override { return at(index).T_map_camera; }
   Frame read(std::int64_t index) const override;
   void add_motion(double after_s, Frame& image) const override;
+  std::unique_ptr<const TrueSurface> true_surface() const override;
 
  private:
   const StampedPose& at(std::int64_t index) const { return journey_.poses.at(static_cast<std::size_t>(index)); }
 
   std::string name_;
-  MeshRays mesh_;
+  TriangleMesh mesh_;
+  MeshRays rays_;
   MeshCamera camera_;
   std::uint64_t seed_;
   CameraJourney journey_;

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "framework/graph/registry.hpp"
 #include "framework/roles/frame_source.hpp"
 #include "modules/sources/room_path.hpp"
@@ -6,6 +8,20 @@
 
 namespace ppm {
 namespace {
+
+class RoomSurface final : public TrueSurface {
+ public:
+  explicit RoomSurface(const AnalyticScene& room) : room_(room) {}
+  void cast(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3f> direction,
+            std::span<float> range_m) const override {
+    for (std::size_t i = 0; i < direction.size(); ++i)
+      range_m[i] = static_cast<float>(room_.cast(origin, direction[i].cast<double>().normalized()).range_m);
+  }
+  double distance(const Eigen::Vector3d& p) const override { return std::abs(room_.distance(p)); }
+
+ private:
+  const AnalyticScene& room_;
+};
 
 class RoomSequence final : public FrameSequence {
  public:
@@ -16,6 +32,7 @@ class RoomSequence final : public FrameSequence {
   std::int64_t size() const override { return frames_; }
   double stamp_s(std::int64_t index) const override { return static_cast<double>(index) / kRoomRateHz; }
   std::optional<Pose> reference_pose(std::int64_t index) const override { return room_camera_pose(stamp_s(index)); }
+  std::unique_ptr<const TrueSurface> true_surface() const override { return std::make_unique<RoomSurface>(room_); }
   Frame read(std::int64_t index) const override {
     Frame frame;
     frame.index = index;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -54,6 +55,13 @@ TEST_CASE("a run leaves its folder complete and says where it is") {
     CHECK(json[holdout]["coverage"].get<double>() > 0.5);
     CHECK(json[holdout]["median_mm"].get<double>() < 60);
   }
+  const auto& surface = json["surface"];
+  CHECK(surface["samples"] == 100000);
+  CHECK(surface["seen_points"].get<int>() > 5000);
+  CHECK(surface["accuracy_median_mm"].get<double>() < 30);
+  CHECK(surface["completeness_median_mm"].get<double>() < 30);
+  CHECK(surface["recall_2cm"] == surface["completeness_within_2cm"]);
+  CHECK(surface["f_score_2cm"].get<double>() > 0.4);
   CHECK(json["digest"].get<std::string>().size() == 32);
   CHECK(json["trajectory_online"]["estimate"] == "best");
   CHECK(json["trajectory_online"]["pairs"] == 10);
@@ -211,6 +219,28 @@ TEST_CASE("option --times keeps time and memory by frame") {
     CHECK(resident > 1);
   }
   CHECK(read_json(room.out / "run.json")["files"].dump().find("times.csv") != std::string::npos);
+}
+
+TEST_CASE("option --views draws held-out frames, the same ones for every map") {
+  SmallRoom room;
+  const auto run = room.run({"--views", "2"});
+  INFO(run->err);
+  REQUIRE(run->code == 0);
+  const auto views = read_json(room.out / "views/views.json");
+  REQUIRE(views.size() == 2);
+  CHECK(views[0]["frame"] == 2);
+  CHECK(views[1]["frame"] == 7);
+  CHECK(views[1]["measured"] == "view_1_7_measured.png");
+  CHECK(views[1]["poses"] == "reference, aligned");
+  for (const auto& view : views)
+    for (const char* what : {"measured", "predicted", "error"})
+      CHECK(std::filesystem::file_size(room.out / "views" / view[what].get<std::string>()) > 1000);
+  const std::vector<std::string> files = read_json(room.out / "run.json")["files"];
+  CHECK(std::ranges::count(files, "views/view_0_2_error.png") == 1);
+
+  // The next run leaves none of the pictures behind.
+  REQUIRE(room.run({"--frames", "4"})->code == 0);
+  CHECK_FALSE(std::filesystem::exists(room.out / "views"));
 }
 
 TEST_CASE("one frame is a run too: nothing to compare a path with") {

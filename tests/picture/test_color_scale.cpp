@@ -115,3 +115,17 @@ TEST_CASE("a legend fits into small and large pictures") {
     CHECK(image.rgb != white(rows * 4 / 3, rows).rgb);
   }
 }
+
+TEST_CASE("a scale of another length is linear from its low end to its high one") {
+  const ColorScale scale("error", {0, 0.05f});
+  CHECK(scale.title() == "error");
+  CHECK_FALSE(scale.logarithmic());
+  CHECK(scale.position(0.0125f) == Approx(0.25));
+  CHECK(scale.color(1) == scale.at(1));
+  CHECK(scale.color(-1) == scale.at(0));
+  const auto ticks = scale.ticks();
+  REQUIRE(ticks.size() == 6);
+  CHECK(ticks[0] == 0);
+  CHECK(ticks[5] == Approx(0.05));
+  CHECK_THROWS_AS(ColorScale("error", ScaleRange{1, 1}), InternalError);
+}

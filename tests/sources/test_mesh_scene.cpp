@@ -200,3 +200,21 @@ TEST_CASE("the planned ways through the house touch nothing") {
     }
   }
 }
+
+TEST_CASE("the true surface of a mesh is the mesh") {
+  const Squares squares;
+  SourceReader reader("source.mesh_scene", squares.params(", noise: exact"));
+  const Frame frame = reader.image(0);
+  const auto truth = reader.source().true_surface();
+  REQUIRE(truth);
+  const Pose& T = *frame.T_world_camera_ref;
+  const Eigen::Vector3d ahead = T.linear().col(2);
+  std::vector<Eigen::Vector3f> direction{ahead.cast<float>(), -ahead.cast<float>()};
+  std::vector<float> range(2);
+  truth->cast(T.translation(), direction, range);
+  CHECK(range[0] == Approx(1));
+  CHECK(std::isinf(range[1]));
+  CHECK(truth->distance(T.translation()) == Approx(1));
+  CHECK(truth->distance(T.translation() + 0.9 * ahead) == Approx(0.1).epsilon(1e-4));
+  CHECK(truth->distance(T.translation() + 1.9 * ahead) == Approx(0.1).epsilon(1e-4));
+}

@@ -172,3 +172,25 @@ TEST_CASE("colour is there when asked for") {
   const auto frame = SourceReader("source.synthetic_room", "{frames: 1, color: true}").next();
   CHECK(frame->color.size() == frame->depth.size() * 3);
 }
+
+TEST_CASE("the room's true surface is what its exact images show") {
+  SourceReader room("source.synthetic_room", "{frames: 2, noise: 0, flying_pixels: false}");
+  const Frame frame = room.image(1);
+  const auto truth = room.source().true_surface();
+  REQUIRE(truth);
+  std::vector<Eigen::Vector3f> direction;
+  std::vector<double> expected;
+  for (int i = 0; i < frame.camera.pixels(); i += 7) {
+    if (!frame.valid(i)) continue;
+    const Eigen::Vector3d ray = frame.camera.ray(i % frame.camera.cols, i / frame.camera.cols);
+    const double depth = frame.depth[static_cast<std::size_t>(i)];
+    direction.push_back((frame.T_world_camera_ref->linear() * ray.normalized()).cast<float>());
+    expected.push_back(depth * ray.norm());
+    CHECK(truth->distance(*frame.T_world_camera_ref * Eigen::Vector3d(depth * ray)) < 1e-5);
+  }
+  REQUIRE(direction.size() > 1000);
+  std::vector<float> range(direction.size());
+  truth->cast(frame.T_world_camera_ref->translation(), direction, range);
+  for (std::size_t i = 0; i < range.size(); ++i) CHECK(range[i] == Approx(expected[i]).epsilon(1e-5));
+  CHECK(truth->distance({0, 0, -0.03}) == Approx(0.03));  // within the floor
+}

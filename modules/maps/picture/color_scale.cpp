@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "framework/core/error.hpp"
+#include "modules/maps/picture/line_plot.hpp"
 
 namespace ppm {
 namespace {
@@ -58,19 +59,27 @@ float quantile_of(std::vector<float>& values, double share) {
 
 }  // namespace
 
-ColorScale::ColorScale(Show show, ScaleRange range) : show_(show), range_(range) {
+ColorScale::ColorScale(Show show, ScaleRange range)
+    : form_(show == Show::sigma ? Form::logarithmic : Form::diverging),
+      title_(show == Show::sigma ? "standard deviation of the surface" : "offset of the surface from the faces"),
+      range_(range) {
   PPM_CHECK(show == Show::sigma || show == Show::mean, "no scale for {}", to_string(show));
   PPM_CHECK(range.low < range.high && (show == Show::mean || range.low > 0), "range {} .. {}", range.low, range.high);
 }
 
+ColorScale::ColorScale(std::string title, ScaleRange range) : form_(Form::linear), title_(std::move(title)), range_(range) {
+  PPM_CHECK(range.low < range.high, "range {} .. {}", range.low, range.high);
+}
+
 float ColorScale::position(float value) const {
-  const float x = logarithmic() ? std::log(std::max(value, range_.low) / range_.low) / std::log(range_.high / range_.low)
-                                : (value - range_.low) / (range_.high - range_.low);
+  const float x = form_ == Form::logarithmic
+                      ? std::log(std::max(value, range_.low) / range_.low) / std::log(range_.high / range_.low)
+                      : (value - range_.low) / (range_.high - range_.low);
   return std::clamp(x, 0.0f, 1.0f);
 }
 
 Color ColorScale::at(float position) const {
-  const Stops& stops = logarithmic() ? kViridis : kCoolWarm;
+  const Stops& stops = form_ == Form::diverging ? kCoolWarm : kViridis;
   const float x = std::clamp(position, 0.0f, 1.0f) * static_cast<float>(stops.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(x), stops.size() - 2);
   const float w = x - static_cast<float>(i);
@@ -82,7 +91,11 @@ Color ColorScale::color(float value) const {
 }
 
 std::vector<float> ColorScale::ticks() const {
-  if (!logarithmic()) {
+  if (form_ == Form::linear) {
+    const auto values = round_values(range_.low, range_.high, 6);
+    return {values.begin(), values.end()};
+  }
+  if (form_ == Form::diverging) {
     const float middle = (range_.low + range_.high) / 2;
     return {range_.low, (range_.low + middle) / 2, middle, (middle + range_.high) / 2, range_.high};
   }
@@ -91,10 +104,6 @@ std::vector<float> ColorScale::ticks() const {
   std::vector<float> ticks;
   for (int n = first; n <= last; n += step) ticks.push_back(static_cast<float>(round_value(n)));
   return ticks;
-}
-
-std::string ColorScale::title() const {
-  return logarithmic() ? "standard deviation of the surface" : "offset of the surface from the faces";
 }
 
 ScaleRange scale_range(const Mesh& mesh, Show show) {

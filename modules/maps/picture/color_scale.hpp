@@ -17,23 +17,27 @@ struct ScaleRange {
 };
 
 /// Lengths as colours, perceptually uniform: for sigma logarithmic, from dark blue to yellow; for the mean linear, from
-/// blue over grey (0) to red. Values beyond the ends have the ends' colours.
+/// blue over grey (0) to red; for other lengths linear, from dark blue to yellow. Values beyond the ends have the ends' colours.
 /// Source: viridis (Smith, van der Walt, Firing, 2015); cool-warm (Moreland, "Diverging color maps for scientific
 /// visualization", 2009).
 class ColorScale {
  public:
   /// show: sigma or mean. The range must ascend and for sigma be positive (InternalError).
   ColorScale(Show show, ScaleRange range);
+  /// Of another length. The range must ascend (InternalError).
+  ColorScale(std::string title, ScaleRange range);
   Color color(float value_m) const;
   Color at(float position) const;        ///< of a position in [0, 1]
   float position(float value_m) const;   ///< in [0, 1]
   std::vector<float> ticks() const;      ///< m: a few round values from end to end
-  std::string title() const;             ///< "standard deviation of the surface"
-  bool logarithmic() const { return show_ == Show::sigma; }
+  const std::string& title() const { return title_; }  ///< "standard deviation of the surface"
+  bool logarithmic() const { return form_ == Form::logarithmic; }
   const ScaleRange& range() const { return range_; }
 
  private:
-  Show show_;
+  enum class Form { logarithmic, diverging, linear };
+  Form form_;
+  std::string title_;
   ScaleRange range_;
 };
 
