@@ -41,6 +41,34 @@ Claim memory_claim(const EqualCost& e, const std::string& against) {
           holds(ratio, kTenth), std::log(ratio.value / kTenth)};
 }
 
+/// Most runs of the graph failed there, or their maps miss most of what was measured.
+bool fails(const Comparison& comparison, const std::string& sequence, const std::string& graph) {
+  const auto runs = comparison.runs_of(sequence, graph);
+  const auto outcome = outcome_of(runs);
+  if (outcome.failed > outcome.done) return true;
+  const auto error = cell_of(runs, measure_of(error_key(comparison)));
+  return error && std::isinf(error->median);
+}
+
+/// What is claimed of maps; where a side has none to compare, that.
+std::vector<Claim> map_claims(const Comparison& comparison, const std::vector<EqualCost>& equal, const std::string& rival) {
+  const auto name = fmt::format("the {} maps", rival);
+  std::vector<Claim> claims;
+  for (const auto& e : equal) {
+    if (e.rival != rival) continue;
+    claims.push_back(error_claim(e, name));
+    if (e.cost == "memory") claims.push_back(memory_claim(e, name));
+  }
+  for (const auto& sequence : comparison.sequences) {
+    const auto text = fmt::format("Held-out median at most half of that of {}", name);
+    if (fails(comparison, sequence.name, comparison.subject))
+      claims.push_back({sequence.name, text, "most runs of the subject failed, or their maps miss most pixels", Holds::no, INFINITY});
+    else if (fails(comparison, sequence.name, comparison.against))
+      claims.push_back({sequence.name, text, "most runs of the other failed, or their maps miss most pixels", Holds::open, 0});
+  }
+  return claims;
+}
+
 Claim path_claim(const Difference& d, const std::string& against) {
   Claim claim{d.sequence, fmt::format("ATE no worse than that of {}", against),
               fmt::format("{} cm against {} cm ({}, {})", shown(*d.measure, d.subject), shown(*d.measure, d.opponent),
@@ -83,11 +111,7 @@ std::vector<Claim> claims_of(const Comparison& comparison, const std::vector<Dif
   const auto& against = comparison.graph(comparison.against);
   const auto rival = rival_of(comparison, against.name);
   const bool same_kind = rival == against.family;  // a variant of the subject: memory and error are not expected to fall tenfold
-  for (const auto& e : equal) {
-    if (e.rival != rival || same_kind) continue;
-    claims.push_back(error_claim(e, "map kind " + rival));
-    if (e.cost == "memory") claims.push_back(memory_claim(e, "map kind " + rival));
-  }
+  if (!same_kind) claims = map_claims(comparison, equal, rival);
   std::vector<const Difference*> paths;
   for (const auto& d : differences) {
     if (d.other != against.name || std::string_view(d.measure->key) != "trajectory.ate_rmse_m") continue;

@@ -18,12 +18,6 @@ double between(double x, double x0, double y0, double x1, double y1) {
   return std::exp((1 - share) * std::log(y0) + share * std::log(y1));
 }
 
-const Measure& measure_of(std::string_view key) {
-  const auto found = std::ranges::find(measures(), key, [](const Measure& m) { return std::string_view(m.key); });
-  PPM_CHECK(found != measures().end(), "no measure {}", key);
-  return *found;
-}
-
 Reading ratio(double subject, const Reading& rival) {
   const auto flipped = rival.bound == Bound::at_least ? Bound::at_most : Bound::at_least;
   return {subject / rival.value, rival.bound == Bound::exact ? Bound::exact : flipped};

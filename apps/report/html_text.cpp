@@ -1,9 +1,6 @@
 #include "apps/report/html_text.hpp"
 
-#include <fmt/core.h>
-
-#include <fstream>
-#include <sstream>
+#include <algorithm>
 
 namespace ppm::report {
 
@@ -33,14 +30,6 @@ std::string base64(std::string_view bytes) {
     for (std::size_t i = 0; i < 4; ++i) out += i <= given ? kDigits[word >> (18 - 6 * i) & 63] : '=';
   }
   return out;
-}
-
-std::string embedded_png(const std::filesystem::path& file, const std::string& alt) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return "";
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(alt), base64(bytes.str()));
 }
 
 }  // namespace ppm::report

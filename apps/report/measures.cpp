@@ -1,11 +1,11 @@
 #include "apps/report/measures.hpp"
 
-#include <fmt/core.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
+
+#include "framework/core/error.hpp"
 
 namespace ppm::report {
 
@@ -57,6 +57,12 @@ constexpr std::array kMeasures{
 
 std::span<const Measure> measures() {
   return kMeasures;
+}
+
+const Measure& measure_of(std::string_view key) {
+  const auto found = std::ranges::find(kMeasures, key, [](const Measure& m) { return std::string_view(m.key); });
+  PPM_CHECK(found != kMeasures.end(), "no measure {}", key);
+  return *found;
 }
 
 std::optional<double> value_of(const Run& run, const Measure& measure) {

@@ -2,6 +2,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "apps/report/suite_folder.hpp"
 
@@ -23,6 +24,7 @@ struct Measure {
 };
 
 std::span<const Measure> measures();
+const Measure& measure_of(std::string_view key);
 
 /// In the measure's unit. None where the run is not done or has no such number; infinite where a held-out median is null (most
 /// pixels were missed).

@@ -18,7 +18,7 @@ tr.yes td:first-child, tr.better td:first-child { border-left: 4px solid #0072b2
 tr.open td:first-child, tr.tie td:first-child { border-left: 4px solid #bbb; }
 tr.subject td { background: #f3f6fa; }
 caption { caption-side: top; text-align: left; font-weight: 600; padding: .3em 0; }
-.plots { display: flex; flex-wrap: wrap; gap: 8px; } .plots figure { flex: 1 1 480px; max-width: 760px; margin: 0; }
+.plots { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(480px, 100%), 1fr)); gap: 8px; } .plots figure { margin: 0; }
 svg.plot { width: 100%; height: auto; display: block; } svg.plot text { font: 11.5px system-ui, "Liberation Sans", Arial, sans-serif; fill: #1a1a1a; }
 svg.plot .head { font-weight: 600; font-size: 13px; } svg.plot .x { text-anchor: middle; } svg.plot .y { text-anchor: end; }
 svg.plot .grid { stroke: #e6e6e6; fill: none; } svg.plot .axis { stroke: #666; fill: none; } svg.plot .diagonal { stroke: #999; stroke-dasharray: 4 4; fill: none; }
@@ -31,7 +31,7 @@ pre .minus { background: #fde8dc; display: block; } pre .plus { background: #dce
 details { margin: .5em 0; } summary { cursor: pointer; font-weight: 600; }
 @media print {
   body { font-size: 10px; max-width: none; padding: 0; } .wide { overflow: visible; } table { font-size: .8em; } th, td { padding: .15em .35em; }
-  h2, h3, caption { break-after: avoid; } figure, tr { break-inside: avoid; } .plots figure { flex-basis: 45%; } td small { white-space: normal; }
+  h2, h3, caption { break-after: avoid; } figure, tr { break-inside: avoid; } .plots { grid-template-columns: 1fr 1fr; } td small { white-space: normal; }
 }
 )";
 }

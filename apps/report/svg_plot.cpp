@@ -13,7 +13,7 @@ namespace ppm::report {
 
 namespace {
 
-constexpr double kWidth = 760, kHeight = 380, kLeft = 62, kRight = 190, kTop = 34, kBottom = 46;
+constexpr double kWidth = 640, kHeight = 330, kLeft = 62, kRight = 180, kTop = 34, kBottom = 46;
 constexpr double kLabelHeight = 14;
 
 constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#b8a800"};

@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
 #include <regex>
 
+#include "apps/report/html_text.hpp"
 #include "apps/report/report.hpp"
 #include "framework/core/error.hpp"
+#include "modules/maps/picture/png_encoder.hpp"
 #include "tests/report/suite_fixture.hpp"
 
 using namespace ppm;
@@ -149,6 +151,40 @@ TEST_CASE("without a reference there are no errors, and the rest stands") {
   CHECK(map["verdict"] == "better");
   CHECK(map["basis"] == "one run");
   check_nesting(content(suite.path() / "report.html"));
+}
+
+TEST_CASE("pictures of the same frames stand beside each other, small enough for one page") {
+  SuiteFixture suite;
+  suite.write();
+  RgbImage image{1280, 960, {}};
+  image.rgb.assign(1280 * 960 * 3, 100);
+  for (const char* graph : {"ppm", "vdb_2cm"}) {
+    const auto folder = suite.run("kitchen", graph, 1);
+    for (const char* name : {"m.png", "p.png", "e.png"}) put(folder / "views" / name, to_png(image));
+    put(folder / "views" / "views.json", R"([{"frame": 5, "measured": "m.png", "predicted": "p.png", "error": "e.png", "poses": "reference"}])");
+  }
+  put(suite.run("kitchen", "ppm", 1) / "map.png", to_png(image));
+  write_report(suite.path());
+  const auto html = content(suite.path() / "report.html");
+  check_nesting(html);
+  std::size_t pictures = 0;
+  for (auto at = html.find("<img"); at != std::string::npos; at = html.find("<img", at + 1)) ++pictures;
+  CHECK(pictures == 1 + 2 * 2 + 1);  // measured once; two graphs; a map
+  CHECK_THAT(html, Contains("Held-out frame 5") && Contains("OpenVDB 2 cm, error"));
+  RgbImage quarter{320, 240, std::vector<std::uint8_t>(320 * 240 * 3, 100)};
+  CHECK_THAT(html, Contains(ppm::report::base64(to_png(quarter))));
+  put(suite.run("kitchen", "ppm", 1) / "map.png", "no picture");
+  CHECK_THROWS_WITH(write_report(suite.path()), Contains("map.png"));
+}
+
+TEST_CASE("a subject whose runs failed does not drop out of the summary") {
+  SuiteFixture suite;
+  suite.write();
+  for (const int seed : {1, 2, 3}) suite.fail("room", "ppm", seed, "killed");
+  const auto claims = report_of(suite)["comparisons"][0]["claims"];
+  CHECK(claims[0]["holds"] == "no");
+  CHECK(claims[0]["sequence"] == "room");
+  CHECK_THAT(claims[0]["number"].get<std::string>(), Contains("most runs of the subject failed"));
 }
 
 TEST_CASE("a suite that has not begun") {
