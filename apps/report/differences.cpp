@@ -37,9 +37,10 @@ double minus(double a, double b) {
   return a == b ? 0.0 : a - b;  // two that failed are alike
 }
 
-Verdict verdict_of(double low, double high) {
-  if (low == 0 && high == 0) return Verdict::tie;
-  return high < 0 ? Verdict::better : low > 0 ? Verdict::worse : Verdict::tie;
+/// Differences that the measure's digits would not show make a tie.
+Verdict verdict_of(const Measure& measure, double low, double high) {
+  const double shows = 0.5 * std::pow(10, -measure.digits);
+  return high < -shows ? Verdict::better : low > shows ? Verdict::worse : Verdict::tie;
 }
 
 void judge(Difference& d, const std::vector<double>& losses, bool seeds_change_nothing) {
@@ -48,11 +49,11 @@ void judge(Difference& d, const std::vector<double>& losses, bool seeds_change_n
   if (seeds_change_nothing || !d.interval) {
     d.basis = seeds_change_nothing ? Basis::exact : Basis::single;
     d.interval.reset();
-    d.verdict = verdict_of(losses.front(), losses.front());
+    d.verdict = verdict_of(*d.measure, losses.front(), losses.front());
     return;
   }
   d.basis = d.interval->level >= kDecides ? Basis::interval : Basis::few;
-  d.verdict = verdict_of(d.interval->low, d.interval->high);
+  d.verdict = verdict_of(*d.measure, d.interval->low, d.interval->high);
 }
 
 double median_of(const std::vector<Pair>& pairs, double Pair::*side) {

@@ -71,7 +71,10 @@ std::string graphs_html(const Suite& suite, const Comparison& c, const SequenceE
 std::string commands_html(const Comparison& c) {
   std::string text;
   for (const auto& run : c.runs) text += command_text(run.command) + "\n";
-  return fmt::format("<details><summary>The command of each run</summary><pre>{}</pre></details>\n", escaped(text));
+  return fmt::format(
+      "<details><summary>The command of each run</summary>\n<p>To be given in the suite&#39;s folder. Where a graph reads data from "
+      "${{PPM_DATA}}, that is to be set.</p><pre>{}</pre></details>\n",
+      escaped(text));
 }
 
 }  // namespace ppm::report

@@ -110,7 +110,7 @@ std::string statistics_text() {
          "for every seed, byte for byte: they do not depend on it.</p>\n"
          "<p>Paired differences are taken run by run, same sequence and same seed; their interval is made the same way. The subject is "
          "better or worse where that interval leaves zero out at a level of 90 % or more, or where neither result depends on the "
-         "seed. Intervals are not corrected for their number: of a hundred comparisons without any difference some six would "
+         "seed, and the digits of the tables show it. Intervals are not corrected for their number: of a hundred comparisons without any difference some six would "
          "show one.</p>\n"
          "<p>Equal memory, equal time, equal error: a rival's graphs make a front, those that no other of them beats in cost and "
          "error. Between its points the front is a straight line in the logarithms; it is not continued beyond them. Where it does not reach, "

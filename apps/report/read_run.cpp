@@ -22,7 +22,7 @@ Json read_json(const std::filesystem::path& file) {
   return json;
 }
 
-/// Scalars by their path; lists are left out, and what a node or a list of files says of itself.
+/// Scalars by their path; lists are left out.
 void flatten(const Json& json, const std::string& path, Run& run) {
   if (json.is_object()) {
     for (const auto& [key, value] : json.items()) flatten(value, path.empty() ? key : path + "." + key, run);
@@ -56,6 +56,14 @@ void read_results(const std::filesystem::path& folder, Run& run) {
   for (const char* kind : {"holdout", "holdout_estimated"})
     if (json.contains(kind) && json[kind].contains("calibration"))
       run.calibration[kind] = calibration_of(file, json[kind]["calibration"]);
+}
+
+/// With known poses the path is the reference, to rounding: its errors measure nothing, nor do revisits.
+void forget_given_path(Run& run) {
+  const auto error = run.numbers.find("trajectory.ate_max_m");
+  if (error == run.numbers.end() || error->second > 1e-6) return;
+  std::erase_if(run.numbers, [](const auto& n) { return n.first.starts_with("trajectory") || n.first.starts_with("revisits"); });
+  std::erase_if(run.curves, [](const auto& c) { return c.first.starts_with("ate"); });
 }
 
 void read_views(const std::filesystem::path& suite, Run& run) {
@@ -101,6 +109,7 @@ void read_run(const std::filesystem::path& suite, Run& run) {
   run.curves = read_curves(folder);
   if (const auto times = run.curves.find("cpu_ms"); times != run.curves.end())
     run.numbers["times.cpu_ms_mean"] = mean(times->second.y);
+  forget_given_path(run);
   read_views(suite, run);
 }
 

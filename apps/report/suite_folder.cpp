@@ -42,6 +42,14 @@ GraphEntry graph_of(const Json& json) {
   return graph;
 }
 
+/// A run's command for someone who stands in the suite's folder, wherever that was: the program by its name, files of the run from there.
+std::vector<std::string> command_there(std::vector<std::string> command, const std::string& run_folder) {
+  for (auto& word : command)
+    if (const auto at = word.find(run_folder); at != std::string::npos) word.erase(0, at);
+  if (!command.empty()) command.front() = std::filesystem::path(command.front()).filename().string();
+  return command;
+}
+
 Run run_of(const std::filesystem::path& suite, const Json& job) {
   Run run;
   run.id = scalar_text(job.at("id"));
@@ -49,7 +57,7 @@ Run run_of(const std::filesystem::path& suite, const Json& job) {
   run.graph = job.at("graph");
   run.seed = job.at("seed");
   run.folder = job.at("folder").get<std::string>();
-  run.command = job.at("command").get<std::vector<std::string>>();
+  run.command = command_there(job.at("command").get<std::vector<std::string>>(), run.folder.string());
   read_run(suite, run);
   return run;
 }
@@ -95,7 +103,8 @@ Suite read_suite(const std::filesystem::path& folder) {
   const auto json = Json::parse(in, nullptr, false);
   if (!json.is_object()) throw DataError(file.string(), "is no JSON");
   try {
-    Suite suite{folder, json.at("name"), title_of(json), json.value("suite_file", ""), json.value("suite_text", ""),
+    const std::filesystem::path suite_file = json.value("suite_file", "");
+    Suite suite{folder, json.at("name"), title_of(json), suite_file.filename().string(), json.value("suite_text", ""),
                 json.value("version", ""), {}, {}};
     if (json.contains("machine")) suite.machine = machine_of(json["machine"]);
     for (const auto& c : json.at("comparisons")) suite.comparisons.push_back(comparison_of(folder, c));

@@ -29,7 +29,7 @@ struct Run {
   std::string id, sequence, graph;
   std::uint64_t seed = 0;
   std::filesystem::path folder;  ///< relative to the suite's
-  std::vector<std::string> command;
+  std::vector<std::string> command;  ///< as it would be given in the suite's folder
   RunStatus status = RunStatus::missing;
   std::string error;  ///< why it failed
 
@@ -63,7 +63,9 @@ struct Comparison {
 
 struct Suite {
   std::filesystem::path folder;
-  std::string name, title, file, text, version;
+  std::string name, title;
+  std::string file, text;  ///< the suite's own: name without folder, and content
+  std::string version;
   std::vector<std::pair<std::string, std::string>> machine;  ///< in words
   std::vector<Comparison> comparisons;
 };

@@ -59,7 +59,8 @@ TEST_CASE("a finished suite: four files, the same bytes again, nothing from outs
   for (const char* word : {"http:", "https:", "<script", "<link", "@import", "url("}) CHECK(html.find(word) == std::string::npos);
   CHECK_THAT(html, Contains("A suite &amp; its &lt;runs&gt;") && Contains("OpenVDB &lt;5 cm&gt;") && Contains("&lt;not&gt;"));
   CHECK(html.find("<5 cm>") == std::string::npos);
-  CHECK_THAT(html, Contains("&#39;graph with space.yaml&#39; --seed 3"));
+  CHECK_THAT(html, Contains("ppm run &#39;runs/main/room/fine[init.size=1 cm]/seed_3/graph.yaml&#39; --seed 3"));
+  CHECK(html.find("/some/where") == std::string::npos);
   CHECK(std::ranges::count(csv, '\n') == 1 + 5 * 2 * 5);
   CHECK_THAT(md, Contains("| PPM | 8.00 [7.68, 8.32] |"));
   write_report(suite.path());
@@ -185,6 +186,24 @@ TEST_CASE("a subject whose runs failed does not drop out of the summary") {
   CHECK(claims[0]["holds"] == "no");
   CHECK(claims[0]["sequence"] == "room");
   CHECK_THAT(claims[0]["number"].get<std::string>(), Contains("most runs of the subject failed"));
+}
+
+TEST_CASE("with known poses there is no error of the path to compare") {
+  SuiteFixture suite;
+  for (auto& graph : suite.graphs) graph.ate_cm = 1e-7;
+  suite.write();
+  const auto json = report_of(suite)["comparisons"][0];
+  CHECK(json["claims"].size() == 2 * 3);
+  for (const auto& plot : json["plots"]) CHECK(plot["y"] != "error after alignment, cm");
+  for (const auto& d : json["differences"]) CHECK(d["measure"] != "trajectory.ate_rmse_m");
+}
+
+TEST_CASE("what the digits of the tables do not show is a tie") {
+  SuiteFixture suite;
+  suite.graphs[2].ate_cm = suite.graphs[0].ate_cm + 0.004;
+  suite.write();
+  const auto differences = report_of(suite)["comparisons"][0]["differences"];
+  CHECK(entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}})["verdict"] == "tie");
 }
 
 TEST_CASE("a suite that has not begun") {
