@@ -8,6 +8,7 @@
 #include "apps/compare/run_jobs.hpp"
 #include "apps/compare/suite_folder.hpp"
 #include "apps/graph_options.hpp"
+#include "apps/report/report.hpp"
 #include "apps/stop_signal.hpp"
 #include "framework/config/units.hpp"
 
@@ -21,7 +22,7 @@ struct CompareOptions {
   std::vector<std::string> only;
   std::string memory;
   int jobs = 0;
-  bool force = false, any_build = false, dry_run = false;
+  bool force = false, any_build = false, dry_run = false, report_only = false;
 };
 
 /// A suite with its folder, and what of it is to be run.
@@ -37,10 +38,14 @@ bool is_chosen(const CompareOptions& options, const Job& job) {
   return options.only.empty() || std::ranges::any_of(options.only, [&](const auto& pattern) { return is_meant(job, pattern); });
 }
 
+std::filesystem::path folder_of(const CompareOptions& options, const Suite& suite) {
+  return options.out.empty() ? std::filesystem::path("runs") / suite.name : options.out;
+}
+
 Work prepare(const CompareOptions& options) {
   Work work;
   work.plan = make_plan(read_suite(options.suite), options.plugins);
-  work.folder = options.out.empty() ? std::filesystem::path("runs") / work.plan.suite.name : options.out;
+  work.folder = folder_of(options, work.plan.suite);
   work.build = build_digest();
   for (const auto& planned : work.plan.jobs) {
     const Job& job = planned.job;
@@ -80,7 +85,12 @@ void list(const Work& work) {
   fmt::print("{} runs, {} to be run\n", work.chosen.size(), work.due.size());
 }
 
-/// Runs what is due. True where all went well.
+void make_report(const std::filesystem::path& folder) {
+  write_report(folder);
+  fmt::print("report: {}\n", (folder / "report.html").string());
+}
+
+/// Runs what is due and reports. True where all went well.
 bool run(const CompareOptions& options, const Work& work) {
   const auto program = this_program();
   make_suite_folder(work.folder, work.plan.suite);
@@ -100,6 +110,7 @@ bool run(const CompareOptions& options, const Work& work) {
              work.chosen.size() - work.due.size(), outcome.done, outcome.failures.size(),
              outcome.interrupted ? ", interrupted" : "", work.folder.string());
   for (const auto& f : outcome.failures) fmt::print(stderr, "failed: {} ({})\n{}\n", f.job.name(), (work.folder / f.job.folder).string(), f.error);
+  make_report(work.folder);
   return outcome.failures.empty() && !outcome.interrupted;
 }
 
@@ -119,6 +130,7 @@ void add_options(CLI::App& command, CompareOptions& options) {
   command.add_flag("--force", options.force, "Runs again what is done");
   command.add_flag("--any-build", options.any_build, "What was done by another build of ppm counts as done");
   command.add_flag("--dry-run", options.dry_run, "Lists the runs and how they stand; runs nothing");
+  command.add_flag("--report-only", options.report_only, "Runs nothing; makes the report of what lies in the folder");
   add_plugin_option(command, options.plugins);
 }
 
@@ -132,6 +144,7 @@ void add_compare(CLI::App& app) {
       "A suite goes on where it stopped: what is done is not run again, unless graph, seed or ppm itself changed. A run that fails "
       "does not end the suite; the exit code is 1 then.");
   command->callback([options] {
+    if (options->report_only) return make_report(folder_of(*options, read_suite(options->suite)));
     const Work work = prepare(*options);
     if (options->dry_run) {
       list(work);

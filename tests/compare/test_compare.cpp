@@ -70,6 +70,13 @@ TEST_CASE("a suite runs, leaves a folder that tells all, and does not run again 
     CHECK(state["command"] == job["command"]);
   }
 
+  const auto report = content(suite.out / "report.json");
+  CHECK(read_json(suite.out / "report.json")["comparisons"][0]["results"][0]["runs"]["done"] == 2);
+  for (const char* file : {"report.html", "report.json", "report.md", "runs.csv"}) fs::remove(suite.out / file);
+  CHECK_THAT(suite.run({"--report-only"})->out, Contains("report.html"));
+  CHECK(content(suite.out / "report.json") == report);
+  for (const char* file : {"report.html", "report.md", "runs.csv"}) CHECK(fs::exists(suite.out / file));
+
   run = suite.run();
   CHECK(run->code == 0);
   CHECK_THAT(run->out, Contains("4 done before, 0 done now"));
