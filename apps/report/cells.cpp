@@ -6,14 +6,18 @@
 
 namespace ppm::report {
 
+bool lost_at_end(const Run& run) {
+  const auto lost = run.numbers.find("tracking.lost_at_end");
+  return lost != run.numbers.end() && lost->second == 1;
+}
+
 Outcome outcome_of(const std::vector<const Run*>& runs) {
   Outcome outcome;
   for (const auto* run : runs) {
     outcome.done += run->status == RunStatus::done;
     outcome.failed += run->status == RunStatus::failed;
     outcome.waiting += run->status == RunStatus::running || run->status == RunStatus::missing;
-    const auto lost = run->numbers.find("tracking.lost_at_end");
-    outcome.lost += lost != run->numbers.end() && lost->second == 1;
+    outcome.lost += lost_at_end(*run);
   }
   return outcome;
 }

@@ -8,6 +8,9 @@
 
 namespace ppm::report {
 
+/// Whether a run that is done had lost the camera when it ended.
+bool lost_at_end(const Run& run);
+
 /// One graph on one sequence: what became of its runs.
 struct Outcome {
   int done = 0, failed = 0, waiting = 0;  ///< waiting: not run yet, or running

@@ -63,13 +63,21 @@ std::string table_md(const Comparison& c, const SequenceEntry& sequence, const M
   return md + "\n";
 }
 
+std::string equal_cost_md(const Analysis& a, const SequenceEntry& sequence) {
+  std::string md;
+  for (const auto& e : a.equal_costs)
+    if (e.sequence == sequence.name)
+      md += fmt::format("| {} | {} | {} | {} |\n", cell(e.rival), e.cost, shown(e.error_ratio()), shown(e.cost_ratio()));
+  return md.empty() ? "" : "| rival | cost | error's ratio at equal cost | cost's ratio at equal error |\n|---|---|---|---|\n" + md + "\n";
+}
+
 std::string failures_md(const Comparison& c) {
   std::string md;
   for (const auto& run : c.runs)
-    if (run.status != RunStatus::done)
-      md += fmt::format("- {}, {}, seed {}: {} {}\n", run.sequence, c.graph(run.graph).title, run.seed, to_string(run.status),
-                        cell(run.error));
-  return md.empty() ? "" : "Runs that failed or are not done:\n\n" + md + "\n";
+    if (run.status != RunStatus::done || lost_at_end(run))
+      md += fmt::format("- {}, {}, seed {}: {} {}\n", run.sequence, c.graph(run.graph).title, run.seed,
+                        lost_at_end(run) ? "lost in the end" : to_string(run.status), cell(run.error));
+  return md.empty() ? "" : "Runs that failed, were lost or are not done:\n\n" + md + "\n";
 }
 
 }  // namespace
@@ -85,6 +93,7 @@ std::string digest(const Suite& suite, const std::vector<Analysis>& analyses) {
     for (const auto& sequence : c.sequences) {
       md += fmt::format("### {}: {}\n\n", c.title, sequence.title);
       for (const auto& group : measure_groups(c, sequence.name)) md += table_md(c, sequence, group);
+      md += equal_cost_md(a, sequence);
     }
   }
   return md;

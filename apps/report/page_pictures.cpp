@@ -44,16 +44,19 @@ std::string figure(const std::filesystem::path& file, const std::string& caption
 std::string view_html(const Suite& suite, const Comparison& c, const Runs& runs, std::int64_t frame) {
   std::string pictures;
   bool measured = false;
+  std::string poses;
   for (const auto* run : runs) {
     const auto view = std::ranges::find(run->views, frame, &View::frame);
     if (view == run->views.end()) continue;
     if (!measured) pictures += figure(suite.folder / view->measured, "measured", kViewCols);
     measured = true;
+    if (poses.empty()) poses = view->poses;
     const auto& title = c.graph(run->graph).title;
     pictures += figure(suite.folder / view->predicted, title + ", predicted", kViewCols) +
                 figure(suite.folder / view->error, title + ", error", kViewCols);
   }
-  return pictures.empty() ? "" : fmt::format("<h4>Held-out frame {}</h4>\n<div class=\"views\">\n{}</div>\n", frame, pictures);
+  return pictures.empty() ? "" : fmt::format("<h4>Held-out frame {}, {} pose</h4>\n<div class=\"views\">\n{}</div>\n", frame,
+                                              escaped(poses), pictures);
 }
 
 }  // namespace

@@ -88,12 +88,10 @@ std::string summary_html(const Analysis& a) {
 std::string failures_html(const Comparison& c) {
   std::string rows;
   for (const auto& run : c.runs) {
-    const auto lost = run.numbers.find("tracking.lost_at_end");
-    const bool lost_at_end = lost != run.numbers.end() && lost->second == 1;
-    if (run.status == RunStatus::done && !lost_at_end) continue;
+    if (run.status == RunStatus::done && !lost_at_end(run)) continue;
     rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         escaped(sequence_title(c, run.sequence)), escaped(c.graph(run.graph).title), run.seed,
-                        lost_at_end ? "lost in the end" : to_string(run.status), escaped(run.error));
+                        lost_at_end(run) ? "lost in the end" : to_string(run.status), escaped(run.error));
   }
   if (rows.empty()) return "";
   return "<h3>Runs that failed, were lost or are not done</h3>\n<p>A run that failed counts as worse than any other in "
