@@ -139,6 +139,19 @@ TEST_CASE("a run that failed is listed and counts as worse than any other; one t
   CHECK_THAT(content(suite.path() / "runs.csv"), Contains("main,room,vdb_2cm,1,failed"));
 }
 
+TEST_CASE("a run that had lost the camera in the end is listed") {
+  SuiteFixture suite;
+  suite.write();
+  const auto file = suite.run("room", "ppm", 2) / "run.json";
+  auto run = Json::parse(content(file));
+  run["tracking"]["lost_at_end"] = true;
+  put(file, run.dump());
+  const auto json = report_of(suite)["comparisons"][0];
+  CHECK(entry(json["results"], {{"sequence", "room"}, {"graph", "ppm"}})["runs"]["lost_at_end"] == 1);
+  CHECK_THAT(content(suite.path() / "report.html"), Contains("5 done, 1 lost"));
+  CHECK_THAT(content(suite.path() / "report.md"), Contains("room, PPM, seed 2: lost in the end"));
+}
+
 TEST_CASE("without a reference there are no errors, and the rest stands") {
   SuiteFixture suite;
   suite.reference = false;
