@@ -26,11 +26,14 @@ struct VdbTile::Node : Internal {
 VdbTile::VdbTile(const Cell& origin, VdbCode value)
     : node_(std::make_unique<Node>(coord(origin), value, value != kVdbUnknown)) {
   constant_.fill(value);
+  occupied_.fill(value > 0);
 }
 
 // Leaf by leaf: InternalNode's own copy starts parallel tasks, which must not happen inside those of particles.
 VdbTile::VdbTile(const VdbTile& other)
-    : node_(std::make_unique<Node>(other.node_->origin(), kVdbUnknown, false)), constant_(other.constant_) {
+    : node_(std::make_unique<Node>(other.node_->origin(), kVdbUnknown, false)),
+      constant_(other.constant_),
+      occupied_(other.occupied_) {
   for (int n = 0; n < kVdbTileLeaves; ++n) {
     if (const Leaf* leaf = other.node_->child(n)) {
       auto* copy = new Leaf(*leaf);
@@ -63,6 +66,7 @@ void VdbTile::set_constant(int leaf, VdbCode value) {
   node_->addTile(Node::index(leaf), value, value != kVdbUnknown);  // drops the leaf
   codes_[static_cast<std::size_t>(leaf)] = nullptr;
   constant_[static_cast<std::size_t>(leaf)] = value;
+  occupied_[static_cast<std::size_t>(leaf)] = value > 0;
 }
 
 void VdbTile::settle(int leaf) {
@@ -70,6 +74,7 @@ void VdbTile::settle(int leaf) {
   if (!codes) return;
   if (std::all_of(codes, codes + kVdbLeafVoxels, [&](VdbCode c) { return c == codes[0]; }))
     return set_constant(leaf, codes[0]);
+  occupied_[static_cast<std::size_t>(leaf)] = *std::max_element(codes, codes + kVdbLeafVoxels) > 0;
   auto& mask = node_->child(leaf)->getValueMask();
   for (openvdb::Index word = 0; word < kVdbLeafVoxels / 64; ++word) {
     std::uint64_t bits = 0;

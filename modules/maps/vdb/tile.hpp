@@ -58,11 +58,14 @@ class VdbTile {
     return leaf(n) ? leaf(n)[vdb_voxel(x, y, z)] : constant(n);
   }
 
+  /// Whether a leaf holds a voxel that is rather occupied than free.
+  bool occupied(int leaf) const { return occupied_[static_cast<std::size_t>(leaf)]; }
+
   /// The voxels of a leaf for writing, made out of the constant where there were none. After writing: settle().
   VdbCode* write(int leaf);
   /// Makes a leaf constant.
   void set_constant(int leaf, VdbCode value);
-  /// Brings masks up to date, and makes the leaf a constant where all its voxels are alike.
+  /// Brings masks and occupied() up to date, and makes the leaf a constant where all its voxels are alike.
   void settle(int leaf);
   /// Whether all leaves are the same constant.
   bool uniform() const;
@@ -74,6 +77,7 @@ class VdbTile {
   std::unique_ptr<Node> node_;
   std::array<VdbCode*, kVdbTileLeaves> codes_{};  // of the node's leaves, for those who walk through them
   std::array<VdbCode, kVdbTileLeaves> constant_{};
+  std::array<bool, kVdbTileLeaves> occupied_{};
 };
 
 /// A chunk of the map: a tile, or one value for the whole of it.
