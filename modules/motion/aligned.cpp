@@ -6,6 +6,7 @@
 
 #include "framework/graph/registry.hpp"
 #include "framework/roles/pose_noise.hpp"
+#include "framework/roles/settle_poses.hpp"
 #include "framework/roles/twins.hpp"
 #include "framework/roles/view_aligner.hpp"
 
@@ -188,31 +189,9 @@ class AlignedMotion final : public Module {
 
   /// Each particle's draw and weight.
   void settle(Context& context) {
-    auto& particles = *belief;
-    auto& seen = particles.column<Matrix6>(kMotionSeenColumn);
-    context.workers().for_each(particles.size(), [&](std::size_t i, int) {
-      seen[i].setZero();
-      if (!found_[i].usable) return;
-      const auto& at = found_[i].at;
-      seen[i] = at.information - prior(i).information();
-      const Twist z = draw_ == Draw::sample ? normal_twist(context.rng("draw", i)) : Twist::Zero();
-      const PoseDraw drawn = draw_around(at, z);
-      particles.correct(i, drawn.T_map_camera);
-      particles.log_weight[i] += log_prior(i, drawn.T_map_camera) - drawn.log_density;
-    });
-    // A draw of the prior's own leaves the weight as it is, which is on another scale than a peak's: where some particles
-    // were aligned, those that were not have to be worse.
-    double least = 0;
-    bool any = false;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      if (!found_[i].usable) continue;
-      least = any ? std::min(least, particles.log_weight[i]) : particles.log_weight[i];
-      any = true;
-    }
-    if (!any) return;
-    for (std::size_t i = 0; i < particles.size(); ++i)
-      if (!found_[i].usable) particles.log_weight[i] = std::min(particles.log_weight[i], least);
-    particles.normalize();
+    std::vector<const Alignment*> usable;
+    for (const auto& f : found_) usable.push_back(f.usable ? &f.at : nullptr);
+    settle_poses(*belief, usable, draw_, [&](std::size_t i, const Pose& T) { return log_prior(i, T); }, context);
   }
 
   double log_prior(std::size_t i, const Pose& T) const {
@@ -239,7 +218,7 @@ class AlignedMotion final : public Module {
   }
 
   ViewAligner aligner_;
-  enum class Draw { sample, optimum } draw_ = Draw::sample;
+  Draw draw_ = Draw::sample;
   int starts_ = 20, stages_ = 4, places_most_ = 6;
   double start_scale_ = 2, start_sigma_t_ = 0.02, start_sigma_r_ = 1.5 * std::numbers::pi / 180, tail_share_ = 0.1;
 

@@ -41,6 +41,7 @@ Span span(float low, float high, double f, double c, int first, int end) {
 
 void SplatDrawing::draw(const PointMap& map, const SplatSettings& settings, const Rows& rows, Prediction& out) {
   gather(map, rows, out);
+  aim(rows, out.camera);
   const auto pixels = static_cast<std::size_t>(rows.end - rows.first) * static_cast<std::size_t>(out.camera.cols);
   nearest_.assign(pixels, kFar);
   foremost_.assign(pixels, 0);
@@ -79,6 +80,13 @@ void SplatDrawing::gather(const PointMap& map, const Rows& rows, const Predictio
   }
 }
 
+void SplatDrawing::aim(const Rows& rows, const Camera& camera) {
+  ray_x_.clear();
+  ray_y_.clear();
+  for (int x = 0; x < camera.cols; ++x) ray_x_.push_back(static_cast<float>(camera.ray(x, 0).x()));
+  for (int y = rows.first; y < rows.end; ++y) ray_y_.push_back(static_cast<float>(camera.ray(0, y).y()));
+}
+
 void SplatDrawing::rasterize(std::uint32_t number, const Rows& rows, const Camera& camera) {
   const Disc& disc = discs_[number];
   // The box around the disc: it reaches least along its normal.
@@ -96,11 +104,13 @@ void SplatDrawing::rasterize(std::uint32_t number, const Rows& rows, const Camer
   const Span lines = span(low(1), high(1), camera.fy, camera.cy, rows.first, rows.end);
   const float offset = disc.normal.dot(disc.middle), square = disc.radius * disc.radius;
   for (int y = lines.first; y < lines.end; ++y) {
+    const float ray_y = ray_y_[static_cast<std::size_t>(y - rows.first)];
+    const float slope = disc.normal.y() * ray_y + disc.normal.z();
     for (int x = columns.first; x < columns.end; ++x) {
-      const Eigen::Vector3f ray = camera.ray(x, y).cast<float>();
-      const float depth = offset / disc.normal.dot(ray);
+      const float ray_x = ray_x_[static_cast<std::size_t>(x)];
+      const float depth = offset / (disc.normal.x() * ray_x + slope);
       if (!(depth > kNear_m)) continue;
-      const float off = (depth * ray - disc.middle).squaredNorm();
+      const float off = (depth * Eigen::Vector3f(ray_x, ray_y, 1) - disc.middle).squaredNorm();
       if (off > square) continue;
       const auto pixel = static_cast<std::uint32_t>((y - rows.first) * camera.cols + x);
       fragments_.push_back({pixel, number, depth, std::max(1 - off / square, kRim)});

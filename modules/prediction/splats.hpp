@@ -9,7 +9,7 @@ namespace ppm {
 
 /// How discs become a surface.
 struct SplatSettings {
-  float blend_m = 0.04f;   ///< discs so far behind the foremost one are of its surface
+  float blend_m = 0.06f;   ///< discs so far behind the foremost one are of its surface
   float blend_sigmas = 2;  ///< or so many of its standard deviations
 };
 
@@ -41,10 +41,12 @@ class SplatDrawing {
   };
 
   void gather(const PointMap& map, const Rows& rows, const Prediction& out);
+  void aim(const Rows& rows, const Camera& camera);
   void rasterize(std::uint32_t disc, const Rows& rows, const Camera& camera);
   void blend(const SplatSettings& settings);
   void write(const Rows& rows, Prediction& out) const;
 
+  std::vector<float> ray_x_, ray_y_;  // by column, by row drawn: of the ray with z = 1
   std::vector<Disc> discs_;
   std::vector<Fragment> fragments_;
   std::vector<float> nearest_;           // by pixel of the rows drawn: depth

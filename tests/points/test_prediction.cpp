@@ -1,5 +1,6 @@
 // Discs against closed forms.
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "tests/map_update/box_world.hpp"
 #include "tests/points/points.hpp"

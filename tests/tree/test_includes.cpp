@@ -105,6 +105,7 @@ TEST_CASE("heavy headers of others are included where they are wrapped, and in n
                                                            {"png.h", {"modules/sources", "modules/maps/picture"}},
                                                            {"jpeglib.h", {"modules/sources"}},
                                                            {"OpenMesh/", {"modules/simplify"}},
+                                                           {"nanoflann.hpp", {"modules/maps/points"}},
                                                            {"openvdb/", {"modules/maps/export", "modules/maps/vdb"}},
                                                            {"dlfcn.h", {"framework/graph", "modules/prediction", "modules/rawlog"}}};
   for (const auto* folder : {"framework", "modules", "apps"}) {
