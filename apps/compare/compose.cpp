@@ -54,6 +54,25 @@ void replace_frames(Config& nodes, const FrameNodes& frames) {
   nodes.items() = std::move(kept);
 }
 
+/// The node of that name, or the end, after a report.
+std::vector<Config>::iterator find_node(Config& nodes, const std::string& name, const Place& place, Diagnostics& mistakes) {
+  auto& all = nodes.items();
+  const auto at = std::ranges::find_if(all, [&](const Config& node) { return text_of(node, "name") == name; });
+  if (at == all.end()) mistakes.push_back({place, fmt::format("the graph has no node '{}'", name)});
+  return at;
+}
+
+void change_nodes(Config& nodes, const SuiteGraph& changes, Diagnostics& mistakes) {
+  for (const auto& node : changes.replaced) {
+    const auto at = find_node(nodes, text_of(node, "name"), node.place(), mistakes);
+    if (at != nodes.items().end()) *at = node;
+  }
+  for (const auto& added : changes.added) {
+    const auto at = find_node(nodes, added.after, added.node.place(), mistakes);
+    if (at != nodes.items().end()) nodes.items().insert(at + 1, added.node);
+  }
+}
+
 void make_plugins_absolute(Config& graph) {
   if (!graph.find("plugins")) return;
   const auto named = Graph::plugins(graph);
@@ -64,6 +83,12 @@ void make_plugins_absolute(Config& graph) {
 }
 
 }  // namespace
+
+std::optional<std::pair<std::string, std::string>> split_key(const std::string& text) {
+  const auto dot = text.find('.');
+  if (dot == std::string::npos || dot == 0 || dot + 1 == text.size()) return std::nullopt;
+  return std::pair(text.substr(0, dot), text.substr(dot + 1));
+}
 
 bool is_node(const Config& node, const std::string& word) {
   return text_of(node, "name") == word || text_of(node, "module") == word;
@@ -89,6 +114,7 @@ Config compose(Config graph, const std::string& name, const Composition& how, Di
   for (const auto& entry : graph.entries())
     if (entry.key != "name" && entry.key != "seed") experiment.set(entry.key, entry.key_place, entry.value);
   if (Config* nodes = nodes_of(experiment)) {
+    if (how.changes) change_nodes(*nodes, *how.changes, mistakes);
     if (how.frames) replace_frames(*nodes, *how.frames);
     std::erase_if(nodes->items(), [&](const Config& node) {
       return std::ranges::any_of(how.drop, [&](const auto& word) { return is_node(node, word); });

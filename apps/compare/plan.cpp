@@ -8,6 +8,7 @@
 #include "apps/compare/compose.hpp"
 #include "framework/core/digest.hpp"
 #include "framework/graph/graph_builder.hpp"
+#include "framework/graph/override.hpp"
 #include "framework/graph/plugin.hpp"
 #include "modules/builtin.hpp"
 
@@ -70,6 +71,7 @@ class Planner {
     const std::string sequence_name = sequence ? sequence->name : kOwnFrames;
     Composition how;
     how.frames = frames && !frames->nodes.empty() ? frames : nullptr;
+    how.changes = &graph;
     for (const auto& [word, place] : comparison.runs.drop) how.drop.push_back(word);
     for (const auto& [word, place] : graph.drop) how.drop.push_back(word);
     if (sequence) how.set = sequence->set;
@@ -81,9 +83,11 @@ class Planner {
     Diagnostics mistakes;
     Config experiment = compose(*file, graph.base_name + "." + sequence_name, how, mistakes);
     add_plugins(experiment);
+    const auto seeded = sequence ? sequence->seeded : std::vector<std::pair<std::string, Place>>();
+    const Config first = with_seed(experiment, seeded, comparison.runs.seeds.front(), mistakes);
     for (auto& m : mistakes) report(std::move(m), context);
-    collect(context, [&] { check(experiment); });
-    add_jobs(comparison, sequence_name, graph, experiment.to_yaml());
+    collect(context, [&] { check(first); });
+    add_jobs(comparison, sequence_name, graph, experiment, seeded);
   }
 
   void add_plugins(Config& experiment) const {
@@ -102,10 +106,23 @@ class Planner {
     Graph::build(experiment, registry);
   }
 
-  void add_jobs(const Comparison& comparison, const std::string& sequence, const SuiteGraph& graph, const std::string& yaml) {
+  /// The experiment with the seed in the parameters that get it too.
+  static Config with_seed(Config experiment, const std::vector<std::pair<std::string, Place>>& seeded, std::uint64_t seed,
+                          Diagnostics& mistakes) {
+    std::vector<Override> set;
+    for (const auto& [word, place] : seeded)
+      if (const auto key = split_key(word)) set.push_back({key->first, key->second, Config::scalar(std::to_string(seed), place)});
+    if (experiment.kind() == Config::Kind::map) apply_overrides(set, experiment, mistakes);
+    return experiment;
+  }
+
+  void add_jobs(const Comparison& comparison, const std::string& sequence, const SuiteGraph& graph, const Config& experiment,
+                const std::vector<std::pair<std::string, Place>>& seeded) {
     const auto& runs = comparison.runs;
     const std::filesystem::path folder = std::filesystem::path("runs") / comparison.name / sequence / graph_folder(comparison, graph);
     for (const auto seed : runs.seeds) {
+      Diagnostics known;  // told for the first seed
+      const std::string yaml = with_seed(experiment, seeded, seed, known).to_yaml();
       Job job{0, comparison.name, sequence, graph.name, seed, folder / fmt::format("seed_{}", seed), runs.threads, runs.views,
               graph.memory_bytes > 0 ? graph.memory_bytes : runs.memory_bytes, runs.time_limit_s, ""};
       Digest digest;

@@ -29,6 +29,13 @@ struct SuiteSequence {
   Place like_place;
   Config frame;                  ///< "node.output" of the frames that are read, or null: the last node's frame
   std::vector<Override> set;
+  std::vector<std::pair<std::string, Place>> seeded;  ///< "node.key" of parameters that get the run's seed too
+};
+
+/// A node that a graph gets.
+struct AddedNode {
+  std::string after;  ///< name of the node behind which it comes
+  Config node;
 };
 
 /// One graph of a comparison; one value of a sweep is a graph of its own.
@@ -43,6 +50,8 @@ struct SuiteGraph {
   std::map<std::string, std::vector<Override>> set_for;  ///< by the name of a sequence
   std::vector<Override> sweep;                           ///< its point of the sweep
   std::vector<std::pair<std::string, Place>> drop;
+  std::vector<Config> replaced;   ///< nodes, each in place of the graph's node of that name
+  std::vector<AddedNode> added;
   double memory_bytes = 0;  ///< 0: as the comparison has it
 };
 

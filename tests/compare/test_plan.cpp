@@ -61,6 +61,60 @@ nodes:
 )");
 }
 
+TEST_CASE("nodes of a graph are replaced and added, and read the sequence's frame") {
+  const SuiteFiles files;
+  const auto plan = files.plan(R"(name: s
+comparisons:
+  - name: c
+    sequences: [{name: short, like: plain.yaml}]
+    graphs:
+      - name: other
+        graph: room.yaml
+        drop: [solid, motion, table]
+        replace: [{name: look, module: prediction.embree, in: {frame: solid.frame}}]
+        add: [{after: update, name: adjust, module: refinement.vertex_adjust}, {after: init, name: walk, module: motion.random_walk, in: {frame: solid.frame}}]
+)");
+  REQUIRE(plan.jobs.size() == 1);
+  const auto& yaml = plan.jobs[0].graph_yaml;
+  std::vector<std::string> names;
+  for (auto at = yaml.find("- name: "); at != std::string::npos; at = yaml.find("- name: ", at + 1))
+    names.push_back(yaml.substr(at + 8, yaml.find('\n', at) - at - 8));
+  CHECK(names == std::vector<std::string>{"eye", "init", "walk", "look", "update", "adjust"});
+  CHECK(yaml.find("module: prediction.embree\n    in:\n      frame: eye.frame\n") != std::string::npos);
+  CHECK(yaml.find("solid.frame") == std::string::npos);
+}
+
+TEST_CASE("nodes that are to be replaced or followed must be there") {
+  const SuiteFiles files;
+  const auto what = files.complaint(kTop + "  - name: c\n    graphs:\n      - name: a\n        graph: room.yaml\n"
+                                           "        replace: [{name: loook, module: prediction.embree}]\n"
+                                           "        add: [{after: upd, name: x, module: refinement.remesh}, {name: y}]\n");
+  CHECK_THAT(what, Catch::Contains("the node needs 'after'"));
+  const auto unknown = files.complaint(kTop + "  - name: c\n    graphs:\n      - name: a\n        graph: room.yaml\n"
+                                              "        replace: [{name: loook, module: prediction.embree}]\n"
+                                              "        add: [{after: upd, name: x, module: refinement.remesh}]\n");
+  CHECK_THAT(unknown, Catch::Contains("SUITE:6:19: the graph has no node 'loook'"));
+  CHECK_THAT(unknown, Catch::Contains("SUITE:7:15: the graph has no node 'upd'"));
+}
+
+TEST_CASE("a parameter may get the run's seed, so that noise differs from seed to seed") {
+  const SuiteFiles files;
+  const auto plan = files.plan(R"(name: s
+seeds: [4, 9]
+comparisons:
+  - name: c
+    sequences: [{name: room, like: room.yaml, seed: camera.seed}]
+    graphs: [{name: ppm, graph: room.yaml}]
+)");
+  REQUIRE(plan.jobs.size() == 2);
+  CHECK(plan.jobs[0].graph_yaml.find("seed: 4\n") != std::string::npos);
+  CHECK(plan.jobs[1].graph_yaml.find("seed: 9\n") != std::string::npos);
+  CHECK(plan.jobs[0].job.experiment != plan.jobs[1].job.experiment);
+  CHECK_THAT(files.complaint(kTop + "  - name: c\n    sequences: [{name: r, like: room.yaml, seed: camera}]\n"
+                                    "    graphs: [{name: a, graph: room.yaml}]\n"),
+             Catch::Contains("SUITE:4:48: 'camera': write node.key"));
+}
+
 TEST_CASE("a sequence may say which frame is read; without sequences a graph keeps its own frames") {
   const SuiteFiles files;
   const auto plan = files.plan(kTop + R"(  - name: a
