@@ -93,8 +93,8 @@ TEST_CASE("nodes that are to be replaced or followed must be there") {
   const auto unknown = files.complaint(kTop + "  - name: c\n    graphs:\n      - name: a\n        graph: room.yaml\n"
                                               "        replace: [{name: loook, module: prediction.embree}]\n"
                                               "        add: [{after: upd, name: x, module: refinement.remesh}]\n");
-  CHECK_THAT(unknown, Catch::Contains("SUITE:6:19: the graph has no node 'loook'"));
-  CHECK_THAT(unknown, Catch::Contains("SUITE:7:15: the graph has no node 'upd'"));
+  CHECK_THAT(unknown, Catch::Contains("SUITE:7:19: the graph has no node 'loook'"));
+  CHECK_THAT(unknown, Catch::Contains("SUITE:8:15: the graph has no node 'upd'"));
 }
 
 TEST_CASE("a parameter may get the run's seed, so that noise differs from seed to seed") {
@@ -112,7 +112,7 @@ comparisons:
   CHECK(plan.jobs[0].job.experiment != plan.jobs[1].job.experiment);
   CHECK_THAT(files.complaint(kTop + "  - name: c\n    sequences: [{name: r, like: room.yaml, seed: camera}]\n"
                                     "    graphs: [{name: a, graph: room.yaml}]\n"),
-             Catch::Contains("SUITE:4:48: 'camera': write node.key"));
+             Catch::Contains("SUITE:4:50: 'camera': write node.key"));
 }
 
 TEST_CASE("a sequence may say which frame is read; without sequences a graph keeps its own frames") {
