@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace ppm::report {
 
@@ -19,13 +21,27 @@ double round_step(double span) {
   return 10 * power;
 }
 
-/// 1, 2 and 5 times powers of ten, ascending, that lie within the bounds or around them.
-std::vector<double> log_marks(double low, double high, bool fine) {
+/// Round values, ascending, that lie within the bounds or around them: whole multiples of powers of ten where that are few, else
+/// 1, 2 and 5 times, else powers of ten alone.
+std::vector<double> log_marks(double low, double high) {
+  std::vector<double> factors{1};
+  if (high / low < 1000) factors = {1, 2, 5};
+  if (high / low < 6) factors = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   std::vector<double> marks;
   for (double e = std::floor(std::log10(low)); e <= std::ceil(std::log10(high)); ++e)
-    for (const double factor : {1.0, 2.0, 5.0})
-      if (fine || factor == 1.0) marks.push_back(factor * std::pow(10, e));
+    for (const double factor : factors) marks.push_back(factor * std::pow(10, e));
   return marks;
+}
+
+/// The marks nearest around two positive values.
+std::pair<double, double> round_ends(double least, double most) {
+  std::pair<double, double> ends{least, most};
+  const auto marks = log_marks(least, most);
+  for (const double mark : marks)
+    if (mark <= least) ends.first = mark;
+  for (auto mark = marks.rbegin(); mark != marks.rend() && *mark >= most; ++mark) ends.second = *mark;
+  if (ends.first == ends.second) ends.second *= 2;
+  return ends;
 }
 
 }  // namespace
@@ -38,12 +54,7 @@ Axis::Axis(const std::vector<double>& values, Scale scale) : log_(scale == Scale
   const auto [least, most] = std::ranges::minmax(used);
   if (log_) {
     const double bottom = std::max(least, most / std::pow(10, kDecades));
-    low_ = bottom / 2, high_ = most * 2;
-    for (const double mark : log_marks(low_, high_, true)) {
-      if (mark <= bottom) low_ = mark;
-      if (mark >= most && high_ == most * 2) high_ = mark;
-    }
-    if (low_ >= high_) high_ = 2 * low_;
+    std::tie(low_, high_) = round_ends(bottom, most);
     return;
   }
   const double step = round_step(most > least ? most - least : std::max(std::abs(most), 1.0));
@@ -62,7 +73,7 @@ std::vector<double> Axis::ticks() const {
   std::vector<double> ticks;
   const double slack = 1e-9 * (high_ - low_);
   if (log_) {
-    for (const double mark : log_marks(low_, high_, high_ / low_ < 1000))
+    for (const double mark : log_marks(low_, high_))
       if (mark >= low_ * (1 - 1e-9) && mark <= high_ * (1 + 1e-9)) ticks.push_back(mark);
     return ticks;
   }

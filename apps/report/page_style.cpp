@@ -11,7 +11,7 @@ p, li { max-width: 50em; }
 .wide { overflow-x: auto; margin: .6em 0; }
 table { border-collapse: collapse; font-size: .86em; font-variant-numeric: tabular-nums; }
 th, td { padding: .25em .6em; text-align: right; vertical-align: top; border-bottom: 1px solid #ddd; }
-th { vertical-align: bottom; border-bottom: 1px solid #888; } th:first-child, td:first-child, .t td, .t th { text-align: left; }
+th { vertical-align: bottom; border-bottom: 1px solid #888; } th:first-child, td:first-child, .t td, .t th { text-align: left; } .cells td:nth-child(2) { white-space: nowrap; }
 td small { display: block; color: #555; white-space: nowrap; } td b { font-weight: 700; }
 tr.no td:first-child, tr.worse td:first-child { border-left: 4px solid #d55e00; }
 tr.yes td:first-child, tr.better td:first-child { border-left: 4px solid #0072b2; }

@@ -42,7 +42,7 @@ std::string runs_text(const Runs& runs) {
 }
 
 std::string table_html(const Comparison& c, const SequenceEntry& sequence, const MeasureGroup& group) {
-  std::string html = fmt::format("<div class=\"wide\"><table><caption>{}</caption>\n<tr><th>graph</th><th>runs</th>", group.title);
+  std::string html = fmt::format("<div class=\"wide\"><table class=\"cells\"><caption>{}</caption>\n<tr><th>graph</th><th>runs</th>", group.title);
   for (const auto* measure : group.measures) html += fmt::format("<th>{}</th>", escaped(heading(*measure)));
   html += "</tr>\n";
   for (const auto& graph : c.graphs) {

@@ -82,8 +82,7 @@ Plot cost_plot(const Comparison& c, const SequenceEntry& sequence, const std::st
     const auto point = cost_point(c, sequence.name, graph.name, cost);
     if (!point) continue;
     const auto [line, fresh] = lines.emplace(graph.family, plot.series.size());
-    if (fresh)
-      plot.series.push_back({graph.sweep.empty() ? graph.title : graph.family, static_cast<int>(g), {}, {}, {}, {}, true});
+    if (fresh) plot.series.push_back({graph.family_title, static_cast<int>(g), {}, {}, {}, {}, true});
     plot.series[line->second].x.push_back(point->cost);
     plot.series[line->second].y.push_back(point->error);
   }

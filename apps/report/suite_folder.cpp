@@ -36,7 +36,13 @@ std::vector<std::pair<std::string, std::string>> machine_of(const Json& json) {
 
 GraphEntry graph_of(const Json& json) {
   const auto name = json.at("name").get<std::string>();
-  GraphEntry graph{name, title_of(json), name.substr(0, name.find('[')), {}};  // of a sweep "ppm_t[init.texel_size=1 cm]"
+  const auto title = title_of(json);
+  GraphEntry graph{name, title, name, title, {}};
+  if (const auto at = name.find('['); at != std::string::npos) {  // of a sweep: "ppm_t[init.texel_size=1 cm]", "PPM, init.texel_size=1 cm"
+    graph.family = name.substr(0, at);
+    const auto point = ", " + name.substr(at + 1, name.size() - at - 2);
+    if (title.ends_with(point)) graph.family_title = title.substr(0, title.size() - point.size());
+  }
   if (json.contains("sweep") && json["sweep"].is_object())
     for (const auto& [key, value] : json["sweep"].items()) graph.sweep[key] = scalar_text(value);
   return graph;

@@ -42,7 +42,7 @@ struct Run {
 
 struct GraphEntry {
   std::string name, title;
-  std::string family;                        ///< of a sweep: its points, first to last, are a line in the plots of error against cost
+  std::string family, family_title;          ///< of a sweep: its points, first to last, are a line in the plots of error against cost
   std::map<std::string, std::string> sweep;  ///< node.key: value; empty: no sweep
 };
 

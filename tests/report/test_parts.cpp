@@ -17,6 +17,7 @@ TEST_CASE("axes end at round numbers and are marked at them") {
   CHECK(logarithmic.ticks().front() == 2);
   CHECK(logarithmic.ticks().back() == Approx(100));
   CHECK(logarithmic.at(std::sqrt(200)) == Approx(0.5));
+  CHECK(Axis({8.9, 9.3}, Scale::logarithmic).ticks() == std::vector<double>{8, 9, 10});
   CHECK(Axis({0, 1, 1e6}, Scale::logarithmic).at(0) == 0);  // no logarithm: at the low end
   CHECK(Axis({4}, Scale::linear).ticks().size() > 1);
   CHECK(tick_text(0.05) == "0.05");

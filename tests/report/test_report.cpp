@@ -105,6 +105,10 @@ TEST_CASE("equal memory and equal error are read off the rivals' front") {
   const auto& sweep = entry(json["equal_cost"], {{"sequence", "kitchen"}, {"rival", "fine"}, {"cost", "memory"}});
   CHECK(sweep["rival_error"]["bound"] == "exact");
   CHECK(sweep["rival_error"]["value"].get<double>() == Approx(std::sqrt(7.9 * 8.4)));
+  const auto& plot = entry(json["plots"], {{"sequence", "kitchen"}, {"title", "Kitchen: error against memory"}});
+  REQUIRE(plot["series"].size() == 4);
+  CHECK(plot["series"][3]["label"] == "PPM");  // the sweep, by the title that its points share
+  CHECK(plot["series"][3]["x"].size() == 2);
   const auto& claims = json["claims"];
   CHECK(claims[0]["holds"] == "no");
   CHECK_THAT(claims[0]["claim"].get<std::string>(), Contains("ATE"));
