@@ -141,6 +141,13 @@ Json plots_json(const Analysis& a) {
   return json;
 }
 
+Json graphs_json(const Comparison& c) {
+  Json json = Json::array();
+  for (const auto& graph : c.graphs)
+    json.push_back({{"name", graph.name}, {"title", graph.title}, {"family", graph.family}, {"sweep", graph.sweep}});
+  return json;
+}
+
 Json runs_json(const Comparison& c) {
   Json json = Json::array();
   for (const auto& run : c.runs)
@@ -164,6 +171,7 @@ std::string numbers(const Suite& suite, const std::vector<Analysis>& analyses) {
                            {"title", c.title},
                            {"subject", c.subject},
                            {"against", c.against},
+                           {"graphs", graphs_json(c)},
                            {"claims", claims_json(a)},
                            {"tallies", tallies_json(a)},
                            {"differences", differences_json(a)},

@@ -105,6 +105,7 @@ TEST_CASE("equal memory and equal error are read off the rivals' front") {
   const auto& sweep = entry(json["equal_cost"], {{"sequence", "kitchen"}, {"rival", "fine"}, {"cost", "memory"}});
   CHECK(sweep["rival_error"]["bound"] == "exact");
   CHECK(sweep["rival_error"]["value"].get<double>() == Approx(std::sqrt(7.9 * 8.4)));
+  CHECK(json["graphs"][3]["sweep"]["init.size"] == "1 cm");
   const auto& plot = entry(json["plots"], {{"sequence", "kitchen"}, {"title", "Kitchen: error against memory"}});
   REQUIRE(plot["series"].size() == 4);
   CHECK(plot["series"][3]["label"] == "PPM");  // the sweep, by the title that its points share
