@@ -43,9 +43,8 @@ std::vector<MeasureGroup> measure_groups(const Comparison& comparison, const std
     MeasureGroup group{heading.title, {}};
     for (const auto& measure : measures()) {
       if (std::ranges::find(heading.sections, section_of(measure)) == heading.sections.end()) continue;
-      const bool any = std::ranges::any_of(comparison.runs, [&](const Run& run) {
-        return run.sequence == sequence && value_of(run, measure);
-      });
+      const bool any = std::ranges::any_of(
+          comparison.runs, [&](const Run& run) { return run.sequence == sequence && value_of(run, measure); });
       if (any) group.measures.push_back(&measure);
     }
     if (!group.measures.empty()) groups.push_back(std::move(group));

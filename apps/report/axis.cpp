@@ -1,9 +1,8 @@
 #include "apps/report/axis.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <tuple>
 #include <utility>
 
@@ -21,8 +20,8 @@ double round_step(double span) {
   return 10 * power;
 }
 
-/// Round values, ascending, that lie within the bounds or around them: whole multiples of powers of ten where that are few, else
-/// 1, 2 and 5 times, else powers of ten alone.
+/// Round values, ascending, that lie within the bounds or around them: whole multiples of powers of ten where that are
+/// few, else 1, 2 and 5 times, else powers of ten alone.
 std::vector<double> log_marks(double low, double high) {
   std::vector<double> factors{1};
   if (high / low < 1000) factors = {1, 2, 5};

@@ -9,8 +9,8 @@ enum class Scale { linear, logarithmic };
 /// An axis from low to high.
 class Axis {
  public:
-  /// The smallest axis with round ends that holds the values. Logarithmic ones take the positive values alone, and go down at
-  /// most six decades.
+  /// The smallest axis with round ends that holds the values. Logarithmic ones take the positive values alone, and go
+  /// down at most six decades.
   Axis(const std::vector<double>& values, Scale scale);
   /// A linear one with given ends.
   Axis(double low, double high) : low_(low), high_(high) {}

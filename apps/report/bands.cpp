@@ -32,7 +32,8 @@ Band thinned(const Band& band, std::size_t most) {
   const bool single = band.low == band.high;
   Band thin;
   for (std::size_t k = 0; k < most; ++k) {
-    const auto first = static_cast<std::ptrdiff_t>(k * size / most), last = static_cast<std::ptrdiff_t>((k + 1) * size / most);
+    const auto first = static_cast<std::ptrdiff_t>(k * size / most),
+               last = static_cast<std::ptrdiff_t>((k + 1) * size / most);
     auto part = [&](const std::vector<double>& v) { return std::vector<double>(v.begin() + first, v.begin() + last); };
     thin.x.push_back(mean(part(band.x)));
     thin.mid.push_back(median(part(band.mid)));

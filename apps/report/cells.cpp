@@ -1,8 +1,7 @@
 #include "apps/report/cells.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
+#include <fmt/core.h>
 
 namespace ppm::report {
 

@@ -1,9 +1,8 @@
 #include "apps/report/claims.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <tuple>
 
 #include "framework/core/error.hpp"
@@ -25,10 +24,11 @@ std::string amount(const std::string& cost, double value) {
 
 Claim error_claim(const EqualCost& e, const std::string& against) {
   const auto ratio = e.error_ratio();
-  return {e.sequence,
-          fmt::format("Held-out median at most half of that of {} at equal {}", against, e.cost),
+  return {e.sequence, fmt::format("Held-out median at most half of that of {} at equal {}", against, e.cost),
           fmt::format("{} ({:.2f} mm, {} {:.2f} mm, at {})", shown(ratio), e.subject.error,
-                      e.rival_error.bound == Bound::exact ? "against" : e.rival_error.bound == Bound::at_least ? "against at least" : "against at most",
+                      e.rival_error.bound == Bound::exact      ? "against"
+                      : e.rival_error.bound == Bound::at_least ? "against at least"
+                                                               : "against at most",
                       e.rival_error.value, amount(e.cost, e.subject.cost)),
           holds(ratio, kHalf), std::log(ratio.value / kHalf)};
 }
@@ -51,7 +51,8 @@ bool fails(const Comparison& comparison, const std::string& sequence, const std:
 }
 
 /// What is claimed of maps; where a side has none to compare, that.
-std::vector<Claim> map_claims(const Comparison& comparison, const std::vector<EqualCost>& equal, const std::string& rival) {
+std::vector<Claim> map_claims(const Comparison& comparison, const std::vector<EqualCost>& equal,
+                              const std::string& rival) {
   const auto name = fmt::format("the {} maps", rival);
   std::vector<Claim> claims;
   for (const auto& e : equal) {
@@ -62,9 +63,11 @@ std::vector<Claim> map_claims(const Comparison& comparison, const std::vector<Eq
   for (const auto& sequence : comparison.sequences) {
     const auto text = fmt::format("Held-out median at most half of that of {}", name);
     if (fails(comparison, sequence.name, comparison.subject))
-      claims.push_back({sequence.name, text, "most runs of the subject failed, or their maps miss most pixels", Holds::no, INFINITY});
+      claims.push_back({sequence.name, text, "most runs of the subject failed, or their maps miss most pixels",
+                        Holds::no, INFINITY});
     else if (fails(comparison, sequence.name, comparison.against))
-      claims.push_back({sequence.name, text, "most runs of the other failed, or their maps miss most pixels", Holds::open, 0});
+      claims.push_back(
+          {sequence.name, text, "most runs of the other failed, or their maps miss most pixels", Holds::open, 0});
   }
   return claims;
 }
@@ -80,8 +83,8 @@ Claim path_claim(const Difference& d, const std::string& against) {
 
 Claim most_paths_claim(const std::vector<const Difference*>& paths, const std::string& against) {
   const auto better = std::ranges::count_if(paths, [](const auto* d) { return d->verdict == Verdict::better; });
-  const auto sure = std::ranges::count_if(
-      paths, [](const auto* d) { return d->verdict == Verdict::better && d->decided(); });
+  const auto sure =
+      std::ranges::count_if(paths, [](const auto* d) { return d->verdict == Verdict::better && d->decided(); });
   const auto all = static_cast<std::ptrdiff_t>(paths.size());
   const auto holds = 2 * sure > all ? Holds::yes : 2 * better > all ? Holds::open : Holds::no;
   return {"", fmt::format("ATE better than that of {} on most sequences", against),
@@ -92,15 +95,20 @@ Claim most_paths_claim(const std::vector<const Difference*>& paths, const std::s
 
 const char* to_string(Holds holds) {
   switch (holds) {
-    case Holds::no: return "no";
-    case Holds::open: return "open";
-    case Holds::yes: return "yes";
+    case Holds::no:
+      return "no";
+    case Holds::open:
+      return "open";
+    case Holds::yes:
+      return "yes";
   }
   PPM_CHECK(false, "no such answer");
 }
 
 std::string shown(const Reading& reading) {
-  const char* bound = reading.bound == Bound::at_most ? "at most " : reading.bound == Bound::at_least ? "at least " : "";
+  const char* bound = reading.bound == Bound::at_most    ? "at most "
+                      : reading.bound == Bound::at_least ? "at least "
+                                                         : "";
   return fmt::format("{}{:.3g}", bound, reading.value);
 }
 
@@ -110,7 +118,8 @@ std::vector<Claim> claims_of(const Comparison& comparison, const std::vector<Dif
   if (comparison.against.empty()) return claims;
   const auto& against = comparison.graph(comparison.against);
   const auto rival = rival_of(comparison, against.name);
-  const bool same_kind = rival == against.family;  // a variant of the subject: memory and error are not expected to fall tenfold
+  const bool same_kind =
+      rival == against.family;  // a variant of the subject: memory and error are not expected to fall tenfold
   if (!same_kind) claims = map_claims(comparison, equal, rival);
   std::vector<const Difference*> paths;
   for (const auto& d : differences) {

@@ -52,7 +52,8 @@ Values graph_values(const std::string& yaml, const std::string& name) {
     if (!node_name) continue;
     for (const auto& entry : node.entries())
       if (entry.key != "name")
-        add_values(entry.value, entry.key == "params" ? node_name->text() : node_name->text() + "." + entry.key, values);
+        add_values(entry.value, entry.key == "params" ? node_name->text() : node_name->text() + "." + entry.key,
+                   values);
   }
   return values;
 }

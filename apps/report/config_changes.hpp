@@ -5,8 +5,8 @@
 
 namespace ppm::report {
 
-/// Values of a graph file by "node.key", in the order of the file: the module, wires ("node.in.frame"), gates ("node.when.every")
-/// and parameters ("node.sigma_t"). Throws ConfigError where the text is no YAML.
+/// Values of a graph file by "node.key", in the order of the file: the module, wires ("node.in.frame"), gates
+/// ("node.when.every") and parameters ("node.sigma_t"). Throws ConfigError where the text is no YAML.
 std::vector<std::pair<std::string, std::string>> graph_values(const std::string& yaml, const std::string& name);
 
 /// A key whose value differs; "" where a side has it not.

@@ -12,8 +12,8 @@ class CsvTable {
   explicit CsvTable(const std::filesystem::path& file);
 
   std::size_t rows() const { return rows_.size(); }
-  /// The column of that name, or the first whose part behind the last dot it is ("map_bytes_owned" of "table.map_bytes_owned");
-  /// -1 where there is none.
+  /// The column of that name, or the first whose part behind the last dot it is ("map_bytes_owned" of
+  /// "table.map_bytes_owned"); -1 where there is none.
   int column(const std::string& name) const;
   const std::string& text(std::size_t row, int column) const { return rows_[row][static_cast<std::size_t>(column)]; }
   /// NaN for an empty field. Throws DataError where it is no number.

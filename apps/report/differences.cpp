@@ -66,19 +66,26 @@ double median_of(const std::vector<Pair>& pairs, double Pair::*side) {
 
 const char* to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::worse: return "worse";
-    case Verdict::tie: return "tie";
-    case Verdict::better: return "better";
+    case Verdict::worse:
+      return "worse";
+    case Verdict::tie:
+      return "tie";
+    case Verdict::better:
+      return "better";
   }
   PPM_CHECK(false, "no such verdict");
 }
 
 const char* to_string(Basis basis) {
   switch (basis) {
-    case Basis::exact: return "exact";
-    case Basis::interval: return "interval";
-    case Basis::few: return "few seeds";
-    case Basis::single: return "one run";
+    case Basis::exact:
+      return "exact";
+    case Basis::interval:
+      return "interval";
+    case Basis::few:
+      return "few seeds";
+    case Basis::single:
+      return "one run";
   }
   PPM_CHECK(false, "no such basis");
 }
@@ -103,8 +110,7 @@ std::optional<Difference> difference_of(const Comparison& comparison, const std:
   d.other = other;
   d.measure = &measure;
   std::vector<double> losses;
-  for (const auto& pair : pairs)
-    losses.push_back(minus(loss_of(measure, pair.subject), loss_of(measure, pair.other)));
+  for (const auto& pair : pairs) losses.push_back(minus(loss_of(measure, pair.subject), loss_of(measure, pair.other)));
   judge(d, losses, !measure.timing && seed_free(ours) && seed_free(theirs));
   const double sign = measure.better == Better::higher ? -1 : 1;  // losses grow where such values fall
   for (const double loss : losses) d.differences.push_back(sign * loss);
@@ -137,7 +143,7 @@ std::vector<Tally> tallies_of(const Comparison& comparison, const std::vector<Di
     for (const auto& d : differences) {
       if (d.other != graph.name) continue;
       const bool better = d.verdict == Verdict::better, worse = d.verdict == Verdict::worse;
-      (better ? d.decided() ? tally.better : tally.leans_better
+      (better  ? d.decided() ? tally.better : tally.leans_better
        : worse ? d.decided() ? tally.worse : tally.leans_worse
                : tally.tie) += 1;
     }

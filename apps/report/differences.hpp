@@ -23,8 +23,9 @@ const char* to_string(Basis basis);
 struct Difference {
   std::string sequence, other;
   const Measure* measure = nullptr;
-  std::vector<double> differences;   ///< by seed, in the measure's unit; of `nearer` measures: of the distances to the target
-  double median = 0;                 ///< of them; infinite where a run of one of the two failed
+  std::vector<double>
+      differences;    ///< by seed, in the measure's unit; of `nearer` measures: of the distances to the target
+  double median = 0;  ///< of them; infinite where a run of one of the two failed
   std::optional<Interval> interval;  ///< of that median
   double p = 1;                      ///< of the exact sign test, two-sided
   double subject = 0, opponent = 0;  ///< medians over the pairs
@@ -47,7 +48,7 @@ std::vector<Difference> differences_of(const Comparison& comparison);
 /// Wins, losses and ties of the subject against one graph.
 struct Tally {
   std::string other;
-  int better = 0, tie = 0, worse = 0;      ///< decided
+  int better = 0, tie = 0, worse = 0;     ///< decided
   int leans_better = 0, leans_worse = 0;  ///< not decided
 };
 std::vector<Tally> tallies_of(const Comparison& comparison, const std::vector<Difference>& differences);

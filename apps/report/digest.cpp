@@ -1,6 +1,5 @@
-#include <fmt/core.h>
-
 #include <algorithm>
+#include <fmt/core.h>
 
 #include "apps/report/outputs.hpp"
 #include "apps/report/page_parts.hpp"
@@ -20,16 +19,16 @@ std::string claims_md(const Analysis& a) {
   if (a.claims.empty()) return "";
   std::string md = "| holds | sequence | claim | number |\n|---|---|---|---|\n";
   for (const auto& c : a.claims)
-    md += fmt::format("| {} | {} | {} | {} |\n", to_string(c.holds), c.sequence.empty() ? "all" : cell(c.sequence), cell(c.text),
-                      cell(c.number));
+    md += fmt::format("| {} | {} | {} | {} |\n", to_string(c.holds), c.sequence.empty() ? "all" : cell(c.sequence),
+                      cell(c.text), cell(c.number));
   return md + "\n";
 }
 
 std::string tallies_md(const Analysis& a) {
   std::string md = "| against | losses | ties | wins | leans to loss | leans to win |\n|---|---|---|---|---|---|\n";
   for (const auto& t : a.tallies)
-    md += fmt::format("| {} | {} | {} | {} | {} | {} |\n", cell(a.comparison.graph(t.other).title), t.worse, t.tie, t.better,
-                      t.leans_worse, t.leans_better);
+    md += fmt::format("| {} | {} | {} | {} | {} | {} |\n", cell(a.comparison.graph(t.other).title), t.worse, t.tie,
+                      t.better, t.leans_worse, t.leans_better);
   return md + "\n";
 }
 
@@ -67,8 +66,12 @@ std::string equal_cost_md(const Analysis& a, const SequenceEntry& sequence) {
   std::string md;
   for (const auto& e : a.equal_costs)
     if (e.sequence == sequence.name)
-      md += fmt::format("| {} | {} | {} | {} |\n", cell(e.rival), e.cost, shown(e.error_ratio()), shown(e.cost_ratio()));
-  return md.empty() ? "" : "| rival | cost | error's ratio at equal cost | cost's ratio at equal error |\n|---|---|---|---|\n" + md + "\n";
+      md +=
+          fmt::format("| {} | {} | {} | {} |\n", cell(e.rival), e.cost, shown(e.error_ratio()), shown(e.cost_ratio()));
+  return md.empty()
+             ? ""
+             : "| rival | cost | error's ratio at equal cost | cost's ratio at equal error |\n|---|---|---|---|\n" +
+                   md + "\n";
 }
 
 std::string failures_md(const Comparison& c) {
@@ -89,7 +92,8 @@ std::string digest(const Suite& suite, const std::vector<Analysis>& analyses) {
   for (const auto& a : analyses) {
     const auto& c = a.comparison;
     md += fmt::format("## {}\n\n", c.title) + claims_md(a) +
-          fmt::format("{} against the others:\n\n", c.graph(c.subject).title) + tallies_md(a) + losses_md(a) + failures_md(c);
+          fmt::format("{} against the others:\n\n", c.graph(c.subject).title) + tallies_md(a) + losses_md(a) +
+          failures_md(c);
     for (const auto& sequence : c.sequences) {
       md += fmt::format("### {}: {}\n\n", c.title, sequence.title);
       for (const auto& group : measure_groups(c, sequence.name)) md += table_md(c, sequence, group);

@@ -26,7 +26,8 @@ Reading ratio(double subject, const Reading& rival) {
 /// Kind of a graph's map, "" where no run is done.
 std::string map_kind(const Comparison& comparison, const std::string& graph) {
   for (const auto& run : comparison.runs)
-    if (const auto kind = run.texts.find("map.kind"); run.graph == graph && kind != run.texts.end()) return kind->second;
+    if (const auto kind = run.texts.find("map.kind"); run.graph == graph && kind != run.texts.end())
+      return kind->second;
   return "";
 }
 
@@ -74,8 +75,8 @@ const char* error_key(const Comparison& comparison) {
   return own ? kOwnPoses : "holdout.median_mm";
 }
 
-std::optional<CostPoint> cost_point(const Comparison& comparison, const std::string& sequence,
-                                    const std::string& graph, const std::string& cost) {
+std::optional<CostPoint> cost_point(const Comparison& comparison, const std::string& sequence, const std::string& graph,
+                                    const std::string& cost) {
   const auto runs = comparison.runs_of(sequence, graph);
   const auto error = cell_of(runs, measure_of(error_key(comparison)));
   const auto paid = cell_of(runs, measure_of(cost == "memory" ? "map.bytes_owned_total" : "times.cpu_ms_mean"));

@@ -23,8 +23,8 @@ struct Reading {
   Bound bound;
 };
 
-/// The error of a front at a cost: straight lines between its points in logarithms of both. A front is not continued: below its
-/// cheapest point the error is at least that point's, beyond its dearest at most that one's.
+/// The error of a front at a cost: straight lines between its points in logarithms of both. A front is not continued:
+/// below its cheapest point the error is at least that point's, beyond its dearest at most that one's.
 Reading error_at(const std::vector<CostPoint>& front, double cost);
 /// The cost of a front at an error, likewise.
 Reading cost_at(const std::vector<CostPoint>& front, double error);
@@ -46,9 +46,10 @@ struct EqualCost {
 /// Key of the error that fronts are made of: the held-out median, from the filter's own poses where there are any.
 const char* error_key(const Comparison& comparison);
 /// Median error and cost of a graph on a sequence.
-std::optional<CostPoint> cost_point(const Comparison& comparison, const std::string& sequence,
-                                    const std::string& graph, const std::string& cost);
-/// Who stands on one front with a graph: those of its kind of map, or of its family where the subject has that kind too.
+std::optional<CostPoint> cost_point(const Comparison& comparison, const std::string& sequence, const std::string& graph,
+                                    const std::string& cost);
+/// Who stands on one front with a graph: those of its kind of map, or of its family where the subject has that kind
+/// too.
 std::string rival_of(const Comparison& comparison, const std::string& graph);
 /// Every sequence, rival and cost.
 std::vector<EqualCost> equal_costs(const Comparison& comparison);

@@ -76,9 +76,12 @@ std::optional<double> value_of(const Run& run, const Measure& measure) {
 
 double loss_of(const Measure& measure, double value) {
   switch (measure.better) {
-    case Better::lower: return value;
-    case Better::higher: return -value;
-    case Better::nearer: return std::abs(value - measure.target);
+    case Better::lower:
+      return value;
+    case Better::higher:
+      return -value;
+    case Better::nearer:
+      return std::abs(value - measure.target);
   }
   return value;
 }

@@ -26,8 +26,8 @@ struct Measure {
 std::span<const Measure> measures();
 const Measure& measure_of(std::string_view key);
 
-/// In the measure's unit. None where the run is not done or has no such number; infinite where a held-out median is null (most
-/// pixels were missed).
+/// In the measure's unit. None where the run is not done or has no such number; infinite where a held-out median is
+/// null (most pixels were missed).
 std::optional<double> value_of(const Run& run, const Measure& measure);
 /// A loss is smaller where the value is better.
 double loss_of(const Measure& measure, double value);

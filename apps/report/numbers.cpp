@@ -115,10 +115,11 @@ Json results_json(const Comparison& c) {
       const auto runs = c.runs_of(sequence.name, graph.name);
       if (runs.empty()) continue;
       const auto o = outcome_of(runs);
-      json.push_back({{"sequence", sequence.name},
-                      {"graph", graph.name},
-                      {"runs", {{"done", o.done}, {"failed", o.failed}, {"waiting", o.waiting}, {"lost_at_end", o.lost}}},
-                      {"measures", measures_json(c, sequence, runs)}});
+      json.push_back(
+          {{"sequence", sequence.name},
+           {"graph", graph.name},
+           {"runs", {{"done", o.done}, {"failed", o.failed}, {"waiting", o.waiting}, {"lost_at_end", o.lost}}},
+           {"measures", measures_json(c, sequence, runs)}});
     }
   }
   return json;
@@ -130,7 +131,8 @@ Json plots_json(const Analysis& a) {
     for (const auto& plot : plots) {
       Json series = Json::array();
       for (const auto& s : plot.series)
-        series.push_back({{"label", s.label}, {"x", list(s.x)}, {"y", list(s.y)}, {"low", list(s.low)}, {"high", list(s.high)}});
+        series.push_back(
+            {{"label", s.label}, {"x", list(s.x)}, {"y", list(s.y)}, {"low", list(s.low)}, {"high", list(s.high)}});
       json.push_back({{"sequence", sequence->name},
                       {"title", plot.title},
                       {"x", plot.x_label},
@@ -182,8 +184,8 @@ std::string numbers(const Suite& suite, const std::vector<Analysis>& analyses) {
   }
   Json machine = Json::object();
   for (const auto& [key, value] : suite.machine) machine[key] = value;
-  const Json json = {{"name", suite.name},       {"title", suite.title},     {"suite_file", suite.file},
-                     {"version", suite.version}, {"machine", machine},       {"comparisons", comparisons}};
+  const Json json = {{"name", suite.name},       {"title", suite.title}, {"suite_file", suite.file},
+                     {"version", suite.version}, {"machine", machine},   {"comparisons", comparisons}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

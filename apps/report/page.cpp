@@ -38,10 +38,11 @@ std::string head_html(const Comparison& c) {
                             c.graphs.size(), c.sequences.size(), o.done, o.failed, o.lost, o.waiting);
 }
 
-std::string sequence_html(const Suite& suite, const Analysis& a, const SequenceEntry& sequence, const std::vector<Plot>& plots) {
+std::string sequence_html(const Suite& suite, const Analysis& a, const SequenceEntry& sequence,
+                          const std::vector<Plot>& plots) {
   const auto& c = a.comparison;
-  std::string html = fmt::format("<h3 id=\"{}-{}\">{}: {}</h3>\n", escaped(c.name), escaped(sequence.name), escaped(c.title),
-                                 escaped(sequence.title));
+  std::string html = fmt::format("<h3 id=\"{}-{}\">{}: {}</h3>\n", escaped(c.name), escaped(sequence.name),
+                                 escaped(c.title), escaped(sequence.title));
   html += tables_html(c, sequence) + equal_cost_html(a, sequence) + "<div class=\"plots\">\n";
   for (const auto& plot : plots) html += "<figure>" + svg_plot(plot) + "</figure>\n";
   return html + "</div>\n" + pictures_html(suite, c, sequence) + "<h4>Graphs</h4>\n" + graphs_html(suite, c, sequence);
@@ -58,7 +59,8 @@ std::string comparison_html(const Suite& suite, const Analysis& a) {
 std::string page(const Suite& suite, const std::vector<Analysis>& analyses) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style></head>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<title>{}</title>\n<style>{}</style></head>\n"
       "<body>\n<h1>{}</h1>\n",
       escaped(suite.title), page_style(), escaped(suite.title));
   html += machine_html(suite) + contents_html(suite);

@@ -20,9 +20,12 @@ std::string changes_html(const std::string& subject, const std::string& other, c
   if (changes.empty()) return "<p>The same nodes and values as the subject's.</p>\n";
   std::string rows;
   for (const auto& change : changes)
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(change.key), escaped(change.left), escaped(change.right));
-  return fmt::format("<div class=\"wide\"><table class=\"t\"><tr><th>node.key</th><th>subject</th><th>{}</th></tr>\n{}</table></div>\n",
-                     escaped(title), rows);
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(change.key), escaped(change.left),
+                        escaped(change.right));
+  return fmt::format(
+      "<div class=\"wide\"><table "
+      "class=\"t\"><tr><th>node.key</th><th>subject</th><th>{}</th></tr>\n{}</table></div>\n",
+      escaped(title), rows);
 }
 
 std::string diff_html(const std::string& subject, const std::string& other) {
@@ -72,7 +75,8 @@ std::string commands_html(const Comparison& c) {
   std::string text;
   for (const auto& run : c.runs) text += command_text(run.command) + "\n";
   return fmt::format(
-      "<details><summary>The command of each run</summary>\n<p>To be given in the suite&#39;s folder. Where a graph reads data from "
+      "<details><summary>The command of each run</summary>\n<p>To be given in the suite&#39;s folder. Where a graph "
+      "reads data from "
       "${{PPM_DATA}}, that is to be set.</p><pre>{}</pre></details>\n",
       escaped(text));
 }

@@ -1,6 +1,5 @@
-#include <fmt/core.h>
-
 #include <algorithm>
+#include <fmt/core.h>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -36,8 +35,9 @@ std::string figure(const std::filesystem::path& file, const std::string& caption
   std::ostringstream bytes;
   bytes << in.rdbuf();
   const auto png = to_png(shrunk(from_png(bytes.str(), file.string()), cols));
-  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-                     escaped(caption), base64(png));
+  return fmt::format(
+      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+      escaped(caption), base64(png));
 }
 
 /// One held-out frame: what was measured, then each graph's prediction and its error.
@@ -55,8 +55,9 @@ std::string view_html(const Suite& suite, const Comparison& c, const Runs& runs,
     pictures += figure(suite.folder / view->predicted, title + ", predicted", kViewCols) +
                 figure(suite.folder / view->error, title + ", error", kViewCols);
   }
-  return pictures.empty() ? "" : fmt::format("<h4>Held-out frame {}, {} pose</h4>\n<div class=\"views\">\n{}</div>\n", frame,
-                                              escaped(poses), pictures);
+  return pictures.empty() ? ""
+                          : fmt::format("<h4>Held-out frame {}, {} pose</h4>\n<div class=\"views\">\n{}</div>\n", frame,
+                                        escaped(poses), pictures);
 }
 
 }  // namespace
@@ -69,8 +70,12 @@ std::string pictures_html(const Suite& suite, const Comparison& c, const Sequenc
   std::string html, maps;
   for (const auto& [frame, seen] : frames) html += view_html(suite, c, runs, frame);
   if (!html.empty())
-    html = "<p>Held-out frames, evenly over the sequence, as the map of each graph's first seed shows them; errors from 0 to 5 cm.</p>\n" + html;
-  for (const auto* run : runs) maps += figure(suite.folder / run->folder / "map.png", c.graph(run->graph).title, kMapCols);
+    html =
+        "<p>Held-out frames, evenly over the sequence, as the map of each graph's first seed shows them; errors from 0 "
+        "to 5 cm.</p>\n" +
+        html;
+  for (const auto* run : runs)
+    maps += figure(suite.folder / run->folder / "map.png", c.graph(run->graph).title, kMapCols);
   if (!maps.empty()) html += "<h4>Final maps</h4>\n<div class=\"maps\">\n" + maps + "</div>\n";
   return html;
 }

@@ -1,7 +1,6 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "apps/report/html_text.hpp"
 #include "apps/report/page_parts.hpp"
@@ -42,7 +41,8 @@ std::string runs_text(const Runs& runs) {
 }
 
 std::string table_html(const Comparison& c, const SequenceEntry& sequence, const MeasureGroup& group) {
-  std::string html = fmt::format("<div class=\"wide\"><table class=\"cells\"><caption>{}</caption>\n<tr><th>graph</th><th>runs</th>", group.title);
+  std::string html = fmt::format(
+      "<div class=\"wide\"><table class=\"cells\"><caption>{}</caption>\n<tr><th>graph</th><th>runs</th>", group.title);
   for (const auto* measure : group.measures) html += fmt::format("<th>{}</th>", escaped(heading(*measure)));
   html += "</tr>\n";
   for (const auto& graph : c.graphs) {
@@ -83,7 +83,8 @@ std::string equal_cost_html(const Analysis& a, const SequenceEntry& sequence) {
         bounded(e.rival_cost, amount(e, e.rival_cost.value)), shown(e.cost_ratio()));
   }
   if (rows.empty()) return "";
-  return "<div class=\"wide\"><table><caption>At equal cost and at equal error</caption>\n<tr><th>rival</th><th>cost</th>"
+  return "<div class=\"wide\"><table><caption>At equal cost and at equal "
+         "error</caption>\n<tr><th>rival</th><th>cost</th>"
          "<th>subject's cost</th><th>subject's error</th><th>rival's error at that cost</th><th>ratio of errors</th>"
          "<th>rival's cost at that error</th><th>ratio of costs</th></tr>\n" +
          rows + "</table></div>\n";

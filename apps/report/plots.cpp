@@ -1,8 +1,7 @@
 #include "apps/report/plots.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
+#include <fmt/core.h>
 #include <map>
 
 #include "apps/report/bands.hpp"
@@ -100,14 +99,18 @@ std::vector<Plot> plots_of(const Comparison& c, const SequenceEntry& sequence) {
     plots.push_back(named(curve_plot(c, sequence, "holdout." + poses),
                           fmt::format("{}: held-out error, {} poses", where, poses), frame, "median error, mm"));
   for (const char* kind : {"holdout", "holdout_estimated"})
-    plots.push_back(named(calibration_plot(c, sequence, kind),
-                          fmt::format("{}: calibration, {} poses", where, std::string(kind) == "holdout" ? "reference" : "estimated"),
-                          "nominal probability of the interval", "share of errors within it"));
+    plots.push_back(named(
+        calibration_plot(c, sequence, kind),
+        fmt::format("{}: calibration, {} poses", where, std::string(kind) == "holdout" ? "reference" : "estimated"),
+        "nominal probability of the interval", "share of errors within it"));
   plots.push_back(named(curve_plot(c, sequence, "memory"), where + ": memory of the map", frame, "MiB, all particles"));
   plots.push_back(named(curve_plot(c, sequence, "cpu_ms", kSmoothFrames),
-                        fmt::format("{}: time a frame (median of {} frames)", where, kSmoothFrames), frame, "CPU time, ms"));
-  plots.push_back(named(cost_plot(c, sequence, "memory"), where + ": error against memory", "map, MiB", "held-out median, mm"));
-  plots.push_back(named(cost_plot(c, sequence, "time"), where + ": error against time", "CPU time a frame, ms", "held-out median, mm"));
+                        fmt::format("{}: time a frame (median of {} frames)", where, kSmoothFrames), frame,
+                        "CPU time, ms"));
+  plots.push_back(
+      named(cost_plot(c, sequence, "memory"), where + ": error against memory", "map, MiB", "held-out median, mm"));
+  plots.push_back(named(cost_plot(c, sequence, "time"), where + ": error against time", "CPU time a frame, ms",
+                        "held-out median, mm"));
   std::erase_if(plots, [](const Plot& plot) { return plot.series.empty(); });
   return plots;
 }

@@ -45,7 +45,8 @@ Curve calibration_of(const std::filesystem::path& file, const Json& json) {
   } catch (const Json::exception&) {
     throw DataError(file.string(), "calibration needs two lists of numbers, nominal and measured");
   }
-  if (curve.x.size() != curve.y.size()) throw DataError(file.string(), "calibration: nominal and measured differ in length");
+  if (curve.x.size() != curve.y.size())
+    throw DataError(file.string(), "calibration: nominal and measured differ in length");
   return curve;
 }
 
@@ -62,7 +63,8 @@ void read_results(const std::filesystem::path& folder, Run& run) {
 void forget_given_path(Run& run) {
   const auto error = run.numbers.find("trajectory.ate_max_m");
   if (error == run.numbers.end() || error->second > 1e-6) return;
-  std::erase_if(run.numbers, [](const auto& n) { return n.first.starts_with("trajectory") || n.first.starts_with("revisits"); });
+  std::erase_if(run.numbers,
+                [](const auto& n) { return n.first.starts_with("trajectory") || n.first.starts_with("revisits"); });
   std::erase_if(run.curves, [](const auto& c) { return c.first.starts_with("ate"); });
 }
 

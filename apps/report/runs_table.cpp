@@ -1,6 +1,5 @@
-#include <fmt/core.h>
-
 #include <cmath>
+#include <fmt/core.h>
 #include <set>
 
 #include "apps/report/outputs.hpp"

@@ -38,7 +38,8 @@ GraphEntry graph_of(const Json& json) {
   const auto name = json.at("name").get<std::string>();
   const auto title = title_of(json);
   GraphEntry graph{name, title, name, title, {}};
-  if (const auto at = name.find('['); at != std::string::npos) {  // of a sweep: "ppm_t[init.texel_size=1 cm]", "PPM, init.texel_size=1 cm"
+  if (const auto at = name.find('[');
+      at != std::string::npos) {  // of a sweep: "ppm_t[init.texel_size=1 cm]", "PPM, init.texel_size=1 cm"
     graph.family = name.substr(0, at);
     const auto point = ", " + name.substr(at + 1, name.size() - at - 2);
     if (title.ends_with(point)) graph.family_title = title.substr(0, title.size() - point.size());
@@ -48,7 +49,8 @@ GraphEntry graph_of(const Json& json) {
   return graph;
 }
 
-/// A run's command for someone who stands in the suite's folder, wherever that was: the program by its name, files of the run from there.
+/// A run's command for someone who stands in the suite's folder, wherever that was: the program by its name, files of
+/// the run from there.
 std::vector<std::string> command_there(std::vector<std::string> command, const std::string& run_folder) {
   for (auto& word : command)
     if (const auto at = word.find(run_folder); at != std::string::npos) word.erase(0, at);
@@ -80,10 +82,14 @@ Comparison comparison_of(const std::filesystem::path& suite, const Json& json) {
 
 const char* to_string(RunStatus status) {
   switch (status) {
-    case RunStatus::done: return "done";
-    case RunStatus::failed: return "failed";
-    case RunStatus::running: return "running";
-    case RunStatus::missing: return "missing";
+    case RunStatus::done:
+      return "done";
+    case RunStatus::failed:
+      return "failed";
+    case RunStatus::running:
+      return "running";
+    case RunStatus::missing:
+      return "missing";
   }
   PPM_CHECK(false, "no such status");
 }
@@ -110,8 +116,14 @@ Suite read_suite(const std::filesystem::path& folder) {
   if (!json.is_object()) throw DataError(file.string(), "is no JSON");
   try {
     const std::filesystem::path suite_file = json.value("suite_file", "");
-    Suite suite{folder, json.at("name"), title_of(json), suite_file.filename().string(), json.value("suite_text", ""),
-                json.value("version", ""), {}, {}};
+    Suite suite{folder,
+                json.at("name"),
+                title_of(json),
+                suite_file.filename().string(),
+                json.value("suite_text", ""),
+                json.value("version", ""),
+                {},
+                {}};
     if (json.contains("machine")) suite.machine = machine_of(json["machine"]);
     for (const auto& c : json.at("comparisons")) suite.comparisons.push_back(comparison_of(folder, c));
     return suite;

@@ -28,12 +28,13 @@ const char* to_string(RunStatus status);
 struct Run {
   std::string id, sequence, graph;
   std::uint64_t seed = 0;
-  std::filesystem::path folder;  ///< relative to the suite's
+  std::filesystem::path folder;      ///< relative to the suite's
   std::vector<std::string> command;  ///< as it would be given in the suite's folder
   RunStatus status = RunStatus::missing;
   std::string error;  ///< why it failed
 
-  std::map<std::string, double> numbers;     ///< scalars of run.json by path ("holdout.median_mm"), those of job.json as "job.NAME"; null: NaN
+  std::map<std::string, double>
+      numbers;  ///< scalars of run.json by path ("holdout.median_mm"), those of job.json as "job.NAME"; null: NaN
   std::map<std::string, std::string> texts;  ///< likewise
   std::map<std::string, Curve> curves;       ///< over frames or time: see read_curves()
   std::map<std::string, Curve> calibration;  ///< "holdout", "holdout_estimated": nominal -> measured
@@ -42,7 +43,8 @@ struct Run {
 
 struct GraphEntry {
   std::string name, title;
-  std::string family, family_title;          ///< of a sweep: its points, first to last, are a line in the plots of error against cost
+  std::string family,
+      family_title;  ///< of a sweep: its points, first to last, are a line in the plots of error against cost
   std::map<std::string, std::string> sweep;  ///< node.key: value; empty: no sweep
 };
 
@@ -70,7 +72,8 @@ struct Suite {
   std::vector<Comparison> comparisons;
 };
 
-/// Reads the folder of a suite. Throws ConfigError where it is none, DataError where a file of a finished run cannot be read.
+/// Reads the folder of a suite. Throws ConfigError where it is none, DataError where a file of a finished run cannot be
+/// read.
 Suite read_suite(const std::filesystem::path& folder);
 
 /// The composed graph of a run (graph.yaml); "" where it has none yet.

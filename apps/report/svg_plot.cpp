@@ -1,10 +1,9 @@
 #include "apps/report/svg_plot.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "apps/report/axis.hpp"
 #include "apps/report/html_text.hpp"
@@ -59,13 +58,13 @@ class Drawing {
   void axes() {
     const double right = kWidth - kRight, bottom = kHeight - kBottom;
     for (const double t : y_.ticks())
-      out_ += fmt::format(
-          "<path class=\"grid\" d=\"M{} {:.1f}H{}\"/><text x=\"{}\" y=\"{:.1f}\" class=\"y\">{}</text>\n", kLeft, py(t),
-          right, kLeft - 6, py(t) + 4, tick_text(t));
+      out_ +=
+          fmt::format("<path class=\"grid\" d=\"M{} {:.1f}H{}\"/><text x=\"{}\" y=\"{:.1f}\" class=\"y\">{}</text>\n",
+                      kLeft, py(t), right, kLeft - 6, py(t) + 4, tick_text(t));
     for (const double t : x_.ticks())
-      out_ += fmt::format(
-          "<path class=\"grid\" d=\"M{:.1f} {}V{}\"/><text x=\"{:.1f}\" y=\"{}\" class=\"x\">{}</text>\n", px(t), kTop,
-          bottom, px(t), bottom + 16, tick_text(t));
+      out_ +=
+          fmt::format("<path class=\"grid\" d=\"M{:.1f} {}V{}\"/><text x=\"{:.1f}\" y=\"{}\" class=\"x\">{}</text>\n",
+                      px(t), kTop, bottom, px(t), bottom + 16, tick_text(t));
     out_ += fmt::format("<path class=\"axis\" d=\"M{} {}V{}H{}\"/>\n", kLeft, kTop, bottom, right);
     out_ += fmt::format("<text x=\"{}\" y=\"{}\" class=\"x\">{}</text>\n", (kLeft + right) / 2, kHeight - 8,
                         escaped(plot_.x_label));

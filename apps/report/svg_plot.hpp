@@ -22,9 +22,9 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// The plot as an <svg> element: axes with round ticks, lines, and a label at the end of each line. Colours are those of Okabe and
-/// Ito, which colour-blind people tell apart; from the ninth series on lines are dashed.
-/// source: Okabe and Ito, Color universal design (2008), https://jfly.uni-koeln.de/color/
+/// The plot as an <svg> element: axes with round ticks, lines, and a label at the end of each line. Colours are those
+/// of Okabe and Ito, which colour-blind people tell apart; from the ninth series on lines are dashed. source: Okabe and
+/// Ito, Color universal design (2008), https://jfly.uni-koeln.de/color/
 std::string svg_plot(const Plot& plot);
 
 /// Whether values are so far apart that only a logarithmic axis shows them: the 90th percentile above 8 times the 10th.

@@ -32,12 +32,11 @@ struct MadeUp {
 /// The folder of a suite with made-up runs: one comparison, two sequences, seeds from 1 on.
 class SuiteFixture {
  public:
-  std::vector<MadeUp> graphs{
-      {"ppm", "PPM", "ppm", 8, 2, 2, 5, 0.02, ""},
-      {"vdb_5cm", "OpenVDB <5 cm>", "vdb", 40, 4, 3, 12, 0.02, ""},
-      {"vdb_2cm", "OpenVDB 2 cm", "vdb", 20, 45, 1.5, 40, 0.02, ""},
-      {"fine[init.size=1 cm]", "PPM, init.size=1 cm", "ppm", 7.9, 4, 2, 6, 0, "1 cm"},
-      {"fine[init.size=4 cm]", "PPM, init.size=4 cm", "ppm", 8.4, 1, 2, 4, 0, "4 cm"}};
+  std::vector<MadeUp> graphs{{"ppm", "PPM", "ppm", 8, 2, 2, 5, 0.02, ""},
+                             {"vdb_5cm", "OpenVDB <5 cm>", "vdb", 40, 4, 3, 12, 0.02, ""},
+                             {"vdb_2cm", "OpenVDB 2 cm", "vdb", 20, 45, 1.5, 40, 0.02, ""},
+                             {"fine[init.size=1 cm]", "PPM, init.size=1 cm", "ppm", 7.9, 4, 2, 6, 0, "1 cm"},
+                             {"fine[init.size=4 cm]", "PPM, init.size=4 cm", "ppm", 8.4, 1, 2, 4, 0, "4 cm"}};
   int seeds = 5, frames = 40;
   bool reference = true;  ///< poses and held-out frames seen from them
 
@@ -62,7 +61,10 @@ class SuiteFixture {
                           {"graph", graph.name},
                           {"seed", seed},
                           {"folder", std::filesystem::relative(folder, path()).string()},
-                          {"command", {"/some/where/ppm", "run", "/else/where/" + std::filesystem::relative(folder, path()).string() + "/graph.yaml", "--seed", std::to_string(seed)}}});
+                          {"command",
+                           {"/some/where/ppm", "run",
+                            "/else/where/" + std::filesystem::relative(folder, path()).string() + "/graph.yaml",
+                            "--seed", std::to_string(seed)}}});
         }
       }
     }
@@ -95,7 +97,10 @@ class SuiteFixture {
                                    {"map", {{"kind", graph.kind}, {"bytes_owned_total", graph.mebibytes * 1048576}}},
                                    {"digest", graph.seed_noise == 0 ? "same" : "digest" + std::to_string(seed)}};
     if (reference) {
-      json["trajectory"] = {{"pairs", frames}, {"ate_rmse_m", graph.ate_cm / 100 * noise}, {"ate_max_m", graph.ate_cm / 50 * noise}, {"rpe_trans_rmse_m", 0.004 * noise}};
+      json["trajectory"] = {{"pairs", frames},
+                            {"ate_rmse_m", graph.ate_cm / 100 * noise},
+                            {"ate_max_m", graph.ate_cm / 50 * noise},
+                            {"rpe_trans_rmse_m", 0.004 * noise}};
       json["holdout"] = {{"poses", "reference"},
                          {"coverage", 0.99},
                          {"median_mm", graph.error_mm * noise},
@@ -105,17 +110,24 @@ class SuiteFixture {
                          {"calibration", {{"nominal", {0.1, 0.5, 0.9}}, {"measured", {0.12, 0.55, 0.91}}}}};
     }
     put(folder / "run.json", json.dump(1));
-    put(folder / "job.json", nlohmann::json{{"status", "done"}, {"exit_code", 0}, {"wall_s", 3.5}, {"peak_rss_bytes", 1e8}, {"seed", seed}}.dump());
-    put(folder / "graph.yaml", "name: " + std::string("x\nnodes:\n  - {name: init, module: map.") + graph.kind +
-                                   "_empty, params: {size: " + (graph.sweep_value.empty() ? "2 cm" : graph.sweep_value) + "}}\n");
+    put(folder / "job.json",
+        nlohmann::json{{"status", "done"}, {"exit_code", 0}, {"wall_s", 3.5}, {"peak_rss_bytes", 1e8}, {"seed", seed}}
+            .dump());
+    put(folder / "graph.yaml",
+        "name: " + std::string("x\nnodes:\n  - {name: init, module: map.") + graph.kind +
+            "_empty, params: {size: " + (graph.sweep_value.empty() ? "2 cm" : graph.sweep_value) + "}}\n");
     std::string ate = "frame,stamp_s,error_m,online_error_m\n", memory = "frame,weigh.ess,table.map_bytes_owned\n",
-                times = "frame,wall_ms,cpu_ms,resident_mb,heap_mb\n", holdout = "poses,frame,pixels,coverage,median_mm,mean_trunc20cm_mm,log_density\n";
+                times = "frame,wall_ms,cpu_ms,resident_mb,heap_mb\n",
+                holdout = "poses,frame,pixels,coverage,median_mm,mean_trunc20cm_mm,log_density\n";
     for (int k = 0; k < frames; ++k) {
       const double grown = static_cast<double>(k + 1) / frames;
-      ate += std::to_string(k) + "," + std::to_string(100 + k * 0.1) + "," + std::to_string(graph.ate_cm / 100 * noise * grown) + ",\n";
-      memory += std::to_string(k) + ",," + (k % 10 == 0 ? std::to_string(graph.mebibytes * 1048576 * grown) : "") + "\n";
+      ate += std::to_string(k) + "," + std::to_string(100 + k * 0.1) + "," +
+             std::to_string(graph.ate_cm / 100 * noise * grown) + ",\n";
+      memory +=
+          std::to_string(k) + ",," + (k % 10 == 0 ? std::to_string(graph.mebibytes * 1048576 * grown) : "") + "\n";
       times += std::to_string(k) + ",9," + std::to_string(graph.cpu_ms * noise) + ",100,50\n";
-      if (k % 10 == 5) holdout += "reference," + std::to_string(k) + ",100,0.99," + std::to_string(graph.error_mm * noise) + ",1,1\n";
+      if (k % 10 == 5)
+        holdout += "reference," + std::to_string(k) + ",100,0.99," + std::to_string(graph.error_mm * noise) + ",1,1\n";
     }
     if (reference) {
       put(folder / "trajectory_error.csv", ate);

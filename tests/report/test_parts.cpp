@@ -53,8 +53,12 @@ TEST_CASE("bands over seeds, thinned and smoothed") {
 }
 
 TEST_CASE("graphs are compared value by value and line by line") {
-  const auto left = graph_values("name: a\nnodes:\n  - {name: init, module: map.x, when: {until_frame: 0}, params: {size: 2 cm, list: [1, 2]}}\n", "left");
-  const auto right = graph_values("name: b\nnodes:\n  - {name: init, module: map.y, when: {until_frame: 0}, params: {size: 2 cm, more: 1}}\n", "right");
+  const auto left = graph_values(
+      "name: a\nnodes:\n  - {name: init, module: map.x, when: {until_frame: 0}, params: {size: 2 cm, list: [1, 2]}}\n",
+      "left");
+  const auto right = graph_values(
+      "name: b\nnodes:\n  - {name: init, module: map.y, when: {until_frame: 0}, params: {size: 2 cm, more: 1}}\n",
+      "right");
   const auto changes = value_changes(left, right);
   REQUIRE(changes.size() == 3);
   CHECK(changes[0].key == "init.module");

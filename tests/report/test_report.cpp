@@ -56,8 +56,10 @@ TEST_CASE("a finished suite: four files, the same bytes again, nothing from outs
   const auto html = content(suite.path() / "report.html");
   const auto csv = content(suite.path() / "runs.csv"), md = content(suite.path() / "report.md");
   check_nesting(html);
-  for (const char* word : {"http:", "https:", "<script", "<link", "@import", "url("}) CHECK(html.find(word) == std::string::npos);
-  CHECK_THAT(html, Contains("A suite &amp; its &lt;runs&gt;") && Contains("OpenVDB &lt;5 cm&gt;") && Contains("&lt;not&gt;"));
+  for (const char* word : {"http:", "https:", "<script", "<link", "@import", "url("})
+    CHECK(html.find(word) == std::string::npos);
+  CHECK_THAT(html,
+             Contains("A suite &amp; its &lt;runs&gt;") && Contains("OpenVDB &lt;5 cm&gt;") && Contains("&lt;not&gt;"));
   CHECK(html.find("<5 cm>") == std::string::npos);
   CHECK_THAT(html, Contains("ppm run &#39;runs/main/room/fine[init.size=1 cm]/seed_3/graph.yaml&#39; --seed 3"));
   CHECK(html.find("/some/where") == std::string::npos);
@@ -77,7 +79,8 @@ TEST_CASE("paired differences are decided by their interval; the losses come fir
   const auto& differences = json["differences"];
   CHECK(differences[0]["verdict"] == "worse");
   CHECK(differences.back()["verdict"] == "better");
-  const auto& ate = entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}});
+  const auto& ate =
+      entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}});
   CHECK(ate["verdict"] == "worse");
   CHECK(ate["basis"] == "interval");
   CHECK(ate["median"].get<double>() == Approx(0.5));
@@ -85,8 +88,10 @@ TEST_CASE("paired differences are decided by their interval; the losses come fir
   CHECK(ate["interval"]["level"].get<double>() == Approx(0.9375));
   CHECK(ate["sign_test_p"].get<double>() == Approx(0.0625));
   // a share that is the same in every run
-  CHECK(entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "holdout.coverage"}})["verdict"] == "tie");
-  const auto& density = entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "holdout.log_density"}});
+  CHECK(entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "holdout.coverage"}})["verdict"] ==
+        "tie");
+  const auto& density =
+      entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "holdout.log_density"}});
   CHECK(density["verdict"] == "better");
   CHECK(density["median"].get<double>() == Approx(0.6));
 }
@@ -95,7 +100,8 @@ TEST_CASE("equal memory and equal error are read off the rivals' front") {
   SuiteFixture suite;
   suite.write();
   const auto json = report_of(suite)["comparisons"][0];
-  // 2 MiB is less than the coarsest grid's 4: at least its 40 mm there; and 8 mm finer than the finest one's 20 mm at 45 MiB
+  // 2 MiB is less than the coarsest grid's 4: at least its 40 mm there; and 8 mm finer than the finest one's 20 mm at
+  // 45 MiB
   const auto& memory = entry(json["equal_cost"], {{"sequence", "kitchen"}, {"rival", "vdb"}, {"cost", "memory"}});
   CHECK(memory["error_ratio"]["bound"] == "at most");
   CHECK(memory["error_ratio"]["value"].get<double>() == Approx(0.2));
@@ -136,11 +142,13 @@ TEST_CASE("a run that failed is listed and counts as worse than any other; one t
   const auto& result = entry(json["results"], {{"sequence", "room"}, {"graph", "vdb_2cm"}});
   CHECK(result["runs"]["failed"] == 3);
   CHECK(result["measures"]["trajectory.ate_rmse_m"]["median"].is_null());
-  const auto& ate = entry(json["differences"], {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}});
+  const auto& ate =
+      entry(json["differences"], {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}});
   CHECK(ate["differences"].size() == 4);
   CHECK(ate["basis"] == "few seeds");
   CHECK(ate["verdict"] == "tie");  // three failures against one run in which the grid does better
-  CHECK_THAT(content(suite.path() / "report.html"), Contains("out of &lt;memory&gt;") && Contains("2 done, 3 failed") && Contains("1 to come"));
+  CHECK_THAT(content(suite.path() / "report.html"),
+             Contains("out of &lt;memory&gt;") && Contains("2 done, 3 failed") && Contains("1 to come"));
   CHECK_THAT(content(suite.path() / "runs.csv"), Contains("main,room,vdb_2cm,1,failed"));
 }
 
@@ -166,7 +174,8 @@ TEST_CASE("without a reference there are no errors, and the rest stands") {
   CHECK(json["claims"].empty());
   CHECK(json["equal_cost"].empty());
   CHECK(json["plots"].size() == 2 * 2);  // memory and time of both sequences
-  const auto& map = entry(json["differences"], {{"sequence", "room"}, {"other", "vdb_5cm"}, {"measure", "map.bytes_owned_total"}});
+  const auto& map =
+      entry(json["differences"], {{"sequence", "room"}, {"other", "vdb_5cm"}, {"measure", "map.bytes_owned_total"}});
   CHECK(map["verdict"] == "better");
   CHECK(map["basis"] == "one run");
   check_nesting(content(suite.path() / "report.html"));
@@ -180,7 +189,8 @@ TEST_CASE("pictures of the same frames stand beside each other, small enough for
   for (const char* graph : {"ppm", "vdb_2cm"}) {
     const auto folder = suite.run("kitchen", graph, 1);
     for (const char* name : {"m.png", "p.png", "e.png"}) put(folder / "views" / name, to_png(image));
-    put(folder / "views" / "views.json", R"([{"frame": 5, "measured": "m.png", "predicted": "p.png", "error": "e.png", "poses": "reference"}])");
+    put(folder / "views" / "views.json",
+        R"([{"frame": 5, "measured": "m.png", "predicted": "p.png", "error": "e.png", "poses": "reference"}])");
   }
   put(suite.run("kitchen", "ppm", 1) / "map.png", to_png(image));
   write_report(suite.path());
@@ -221,7 +231,8 @@ TEST_CASE("what the digits of the tables do not show is a tie") {
   suite.graphs[2].ate_cm = suite.graphs[0].ate_cm + 0.004;
   suite.write();
   const auto differences = report_of(suite)["comparisons"][0]["differences"];
-  CHECK(entry(differences, {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}})["verdict"] == "tie");
+  CHECK(entry(differences,
+              {{"sequence", "room"}, {"other", "vdb_2cm"}, {"measure", "trajectory.ate_rmse_m"}})["verdict"] == "tie");
 }
 
 TEST_CASE("a suite that has not begun") {

@@ -38,8 +38,8 @@ TEST_CASE("confidence intervals of the median have the levels of the binomial di
   check({2, 1}, 1, 2, 0.5);
   check({5, 3, 1, 2, 4}, 1, 5, 0.9375);
   check({1, 2, 3, 4, 5, 6}, 1, 6, 0.96875);
-  check({1, 2, 3, 4, 5, 6, 7, 8}, 1, 8, 0.9921875);            // the 2nd and 7th would hold it with 0.93 alone
-  check({1, 2, 3, 4, 5, 6, 7, 8, 9}, 2, 8, 1 - 20.0 / 512);    // tabulated: 0.961
+  check({1, 2, 3, 4, 5, 6, 7, 8}, 1, 8, 0.9921875);          // the 2nd and 7th would hold it with 0.93 alone
+  check({1, 2, 3, 4, 5, 6, 7, 8, 9}, 2, 8, 1 - 20.0 / 512);  // tabulated: 0.961
   check({1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, 2, 9, 1 - 22.0 / 1024);
 }
 
