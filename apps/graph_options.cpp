@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "framework/graph/plugin.hpp"
+#include "framework/graph/shipped_plugins.hpp"
 #include "modules/builtin.hpp"
 
 namespace ppm {
@@ -42,7 +43,7 @@ Registry make_registry(const std::vector<std::filesystem::path>& plugins) {
 }
 
 void add_plugin_option(CLI::App& command, std::vector<std::filesystem::path>& plugins) {
-  command.add_option("--plugin", plugins, "Shared library with further modules; may be repeated")
+  command.add_option("--plugin", plugins, "Shared library with further modules, or the name of one that ships; may be repeated")
       ->allow_extra_args(false)
       ->type_name("LIBRARY");
 }
@@ -65,7 +66,8 @@ void add_plugins(const std::vector<std::filesystem::path>& plugins, Config& tree
   Config& list = *tree.find("plugins");
   if (list.kind() != Config::Kind::sequence) return;  // building the graph says so
   for (const auto& library : plugins) {
-    const auto path = std::filesystem::absolute(library).lexically_normal();
+    const bool shipped = is_plugin_name(library.string());
+    const auto path = shipped ? library : std::filesystem::absolute(library).lexically_normal();
     const auto named = Graph::plugins(tree);
     if (std::ranges::none_of(named, [&](const auto& known) { return known.first == path; }))
       list.items().push_back(Config::scalar(path.string(), Place{"--plugin " + library.string()}));
@@ -80,6 +82,7 @@ Graph GraphOptions::load() const {
   Mistakes mistakes;
   for (const auto& [library, place] : Graph::plugins(tree))
     mistakes.collect([&, lib = library, at = place] { load_plugin(lib, at, registry); });
+  mistakes.throw_if_any();  // without a plug-in each of its modules would be a mistake of its own
   std::vector<Override> overrides;
   for (const auto& text : set) mistakes.collect([&] { overrides.push_back(parse_override(text)); });
   if (seed) overrides.push_back(Override{"", "seed", Config::scalar(std::to_string(*seed), Place{"--seed"})});

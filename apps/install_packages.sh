@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that ppm is built from and tested with. Nothing to do where they are there.
+#   bash apps/install_packages.sh [--optional]   also what plug-ins are built from: other people's maps
 set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache mold pkg-config git
@@ -9,6 +10,12 @@ packages=(
   libegl-dev libgl-dev libegl1 libgl1-mesa-dri
   catch2 libopenmesh-dev libtinygltf-dev libbenchmark-dev libmrpt-poses-dev libmrpt-obs-dev libmrpt-bayes-dev jq
 )
+optional=(liboctomap-dev libopen3d-dev)
+case "${1:-}" in
+  "") ;;
+  --optional) packages+=("${optional[@]}") ;;
+  *) echo "usage: apps/install_packages.sh [--optional]" >&2; exit 2 ;;
+esac
 missing=()
 for p in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'ok installed' || missing+=("$p")

@@ -20,7 +20,7 @@ while [ $# -gt 0 ]; do
     *) echo "usage: tests/run.sh [--sanitize address|thread] [-- CTEST-ARGUMENTS]" >&2; exit 2 ;;
   esac
 done
-bash apps/install_packages.sh
+bash apps/install_packages.sh --optional
 cmake --preset "$preset"
 cmake --build --preset "$preset"
 exec ctest --preset "$preset" "$@"

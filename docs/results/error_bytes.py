@@ -20,9 +20,8 @@ for row in grids:
 
 print("# Error against bytes\n")
 print("Written by `bash docs/results/error_bytes.sh`: the kitchen with its reference poses, 500 images mapped, 100 held out")
-print("([metrics](../metrics.md)). PPM: the level of detail is set by the parameters named. OctoMap 1.9.7 with its defaults, bytes")
-print("as it counts them; Open3D 0.16's scalable TSDF, blocks of 16^3 voxels, the extracted mesh predicts. The grids' figures come")
-print("from `tests/bench/grid_*.cpp`, with the same frames, pixels and scores.\n")
+print("([metrics](../metrics.md)). PPM: the level of detail is set by the parameters named. OctoMap 1.9.7 with its defaults and Open3D 0.16's")
+print("scalable TSDF, truncation at four voxels: [what they are taken to say](../maps_grids.md), with the same frames, pixels and scores.\n")
 print("![Median and truncated mean error against memory](../images/error_bytes.png)\n")
 print("| map | MiB | coverage | median, mm | within 1 / 2 / 5 cm | truncated mean, mm |")
 print("|---|---|---|---|---|---|")

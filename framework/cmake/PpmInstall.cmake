@@ -8,7 +8,8 @@ install(TARGETS ppm_rawlog LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/framework ${CMAKE_BINARY_DIR}/generated/framework
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ppm FILES_MATCHING PATTERN "*.hpp" PATTERN cmake EXCLUDE)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/modules/maps
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ppm/modules FILES_MATCHING PATTERN "*.hpp")
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ppm/modules FILES_MATCHING PATTERN "*.hpp"
+        PATTERN octomap EXCLUDE PATTERN tsdf EXCLUDE)  # of the plug-ins that ship
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/configs DESTINATION ${CMAKE_INSTALL_DATADIR}/ppm)
 install(EXPORT ppmTargets NAMESPACE ppm:: DESTINATION ${package})
 configure_package_config_file(${CMAKE_SOURCE_DIR}/framework/cmake/ppmConfig.cmake.in ${CMAKE_BINARY_DIR}/ppmConfig.cmake

@@ -1,6 +1,7 @@
 #include "framework/graph/graph.hpp"
 
 #include "framework/graph/graph_builder.hpp"
+#include "framework/graph/shipped_plugins.hpp"
 #include "framework/slam/particle_set.hpp"
 
 namespace ppm {
@@ -20,6 +21,10 @@ std::vector<std::pair<std::filesystem::path, Place>> Graph::plugins(const Config
   if (!list) return found;
   for (const auto& item : list->items()) {
     if (item.kind() != Config::Kind::scalar) continue;  // build() says so
+    if (is_plugin_name(item.text())) {
+      found.emplace_back(item.text(), item.place());
+      continue;
+    }
     auto folder = std::filesystem::path(item.place().file).parent_path();
     found.emplace_back(std::filesystem::absolute(folder / item.text()).lexically_normal(), item.place());
   }

@@ -62,7 +62,8 @@ class Graph {
   std::string effective_yaml() const;
   /// The same without what has no influence on results (checkpoint_every): what a run and its continuation must agree in.
   std::string experiment_yaml() const;
-  /// The `plugins:` of a graph file, to be loaded before build(). A relative path starts at the file's folder.
+  /// The `plugins:` of a graph file, to be loaded before build(): names of shipped ones as they are, files as absolute
+  /// paths. A relative path starts at the file's folder.
   static std::vector<std::pair<std::filesystem::path, Place>> plugins(const Config& file);
 
  private:
@@ -73,7 +74,7 @@ class Graph {
   std::uint64_t seed_ = 0;
   std::int64_t checkpoint_every_ = 0;
   MapCodecs map_kinds_;
-  std::vector<std::filesystem::path> plugins_;  // absolute
+  std::vector<std::filesystem::path> plugins_;  // absolute, or names of shipped ones
   std::vector<Node> nodes_;
   std::vector<std::unique_ptr<std::shared_ptr<const void>>> slots_;
   std::unique_ptr<ParticleSet> belief_;

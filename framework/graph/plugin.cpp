@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include "framework/graph/abi.hpp"
+#include "framework/graph/shipped_plugins.hpp"
 
 namespace ppm {
 
@@ -32,11 +33,22 @@ void check_stamp(const std::string& stamp, const std::filesystem::path& file, co
                                 file.string(), stamp, PPM_ABI_STAMP));
 }
 
+std::filesystem::path file_of(const std::filesystem::path& library, const Place& place) {
+  if (is_plugin_name(library.string())) {
+    try {
+      return std::filesystem::canonical(library_of(library.string(), shipped_plugins()));
+    } catch (const Error& e) {
+      throw ConfigError(place, e.what());
+    }
+  }
+  if (!std::filesystem::exists(library)) throw ConfigError(place, fmt::format("no plug-in {}", library.string()));
+  return std::filesystem::canonical(library);
+}
+
 }  // namespace
 
 void load_plugin(const std::filesystem::path& library, const Place& place, Registry& registry) {
-  if (!std::filesystem::exists(library)) throw ConfigError(place, fmt::format("no plug-in {}", library.string()));
-  const auto file = std::filesystem::canonical(library);
+  const auto file = file_of(library, place);
   for (const auto* info : registry.all()) {
     if (info->origin == file.string()) return;  // named twice
   }

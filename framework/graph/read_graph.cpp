@@ -6,6 +6,7 @@
 
 #include "framework/graph/graph_builder.hpp"
 #include "framework/graph/override.hpp"
+#include "framework/graph/shipped_plugins.hpp"
 
 namespace ppm {
 
@@ -17,6 +18,14 @@ std::string category(const std::string& module) {
 
 std::string join(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// "; it is of ..." where a shipped plug-in has the module's name behind the dot, as its modules are called.
+std::string plugin_hint(const std::string& module) {
+  for (const auto& plugin : shipped_plugins())
+    if (module.ends_with("." + plugin.name))
+      return fmt::format("; modules of that name are in a plug-in: write plugins: [{}]", plugin.name);
+  return "";
 }
 
 /// What to write in place of an unknown module: the modules of its category, or the categories.
@@ -98,7 +107,7 @@ void GraphBuilder::read_plugins(const Config& list) {
     report(list.place(), fmt::format("plugins is a list of libraries, not {}", a_kind(list)));
   }
   for (const auto& item : list.items()) {
-    if (item.kind() != Config::Kind::scalar) report(item.place(), "a plug-in is the path of a library");
+    if (item.kind() != Config::Kind::scalar) report(item.place(), "a plug-in is the path of a library, or the name of one that ships");
   }
 }
 
@@ -137,10 +146,12 @@ void GraphBuilder::make_module(const Config& tree, Node& node, Place& place) {
   const Config* name = required(tree, "a node", "module", Config::Kind::scalar);
   const ModuleInfo* info = name ? registry_.find(name->text()) : nullptr;
   if (name && !info) {
-    report(name->place(),
-           fmt::format("unknown module '{}'{}{}", name->text(), suggestion(name->text(), registry_.names()),
-                       known_modules(name->text(), registry_)));
-    info = registry_.find(did_you_mean(name->text(), registry_.names()));
+    const auto plugin = plugin_hint(name->text());
+    report(name->place(), fmt::format("unknown module '{}'{}", name->text(),
+                                      !plugin.empty() ? plugin
+                                                      : suggestion(name->text(), registry_.names()) +
+                                                            known_modules(name->text(), registry_)));
+    if (plugin.empty()) info = registry_.find(did_you_mean(name->text(), registry_.names()));
   }
   if (name) place = name->place();
   if (!info) {

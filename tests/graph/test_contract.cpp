@@ -1,4 +1,4 @@
-// What holds for every module that is built in.
+// What holds for every module that is built in or ships as a plug-in.
 #include <catch2/catch.hpp>
 #include <regex>
 #include <set>
@@ -6,7 +6,7 @@
 #include "framework/graph/describe.hpp"
 #include "framework/graph/facet_state.hpp"
 #include "framework/graph/harness.hpp"
-#include "tests/support/registry.hpp"
+#include "tests/support/shipped_plugins.hpp"
 #include "tests/support/temp_folder.hpp"
 
 using namespace ppm;
@@ -15,11 +15,12 @@ namespace {
 
 const std::set<std::string> kCategories{"source",    "sensor",     "preprocess", "map",        "motion",   "prediction",
                                         "weighting", "recovery",  "resampling", "map_update", "refinement", "simplify",   "sink"};
-const std::set<std::string> kFacets{"belief", "prediction", "prediction.elements", "fit", "motion.prior", "map.points", "map.ppm", "map.vdb", "map.*"};
+const std::set<std::string> kFacets{"belief",    "prediction",  "prediction.elements", "fit",      "motion.prior", "map.octomap",
+                                    "map.points", "map.ppm",     "map.tsdf",            "map.vdb",  "map.*"};
 const std::regex kLowerSnake("[a-z][a-z0-9_]*");
 
 void check_each(const std::function<void(const ModuleInfo&, Module&)>& check) {
-  for (const auto* info : test::builtin().all()) {
+  for (const auto* info : test::shipped().all()) {
     INFO(info->name);
     auto module = info->make();
     check(*info, *module);
@@ -47,7 +48,7 @@ TEST_CASE("contract: a module says what it is and where it is from") {
     CHECK(is_sentence(info.summary));
     CHECK(info.summary.find(". ") == std::string::npos);  // one sentence
     CHECK_FALSE(info.source.empty());
-    CHECK(info.origin == "built in");
+    CHECK((info.origin == "built in" || info.origin.find("/ppm/plugins/") != std::string::npos));
   });
 }
 
@@ -101,7 +102,7 @@ TEST_CASE("contract: facets are known words") {
 }
 
 TEST_CASE("contract: a module is described in every form") {
-  const auto schema = graph_schema(test::builtin());
+  const auto schema = graph_schema(test::shipped());
   check_each([&](const ModuleInfo& info, Module& module) {
     const auto text = describe_text(info);
     const auto page = describe_markdown(info);
@@ -118,7 +119,7 @@ TEST_CASE("contract: a module made and dropped leaves nothing, opened with defau
   test::TempFolder folder;
   check_each([&](const ModuleInfo& info, Module&) {
     try {
-      Harness harness(test::builtin(), info.name, "{}", 1, 1, folder.path());
+      Harness harness(test::shipped(), info.name, "{}", 1, 1, folder.path());
       CHECK(std::filesystem::is_empty(folder.path()));
       harness.module().open(harness.context());
     } catch (const ConfigError&) {  // a required parameter

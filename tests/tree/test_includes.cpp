@@ -107,6 +107,8 @@ TEST_CASE("heavy headers of others are included where they are wrapped, and in n
                                                            {"OpenMesh/", {"modules/simplify"}},
                                                            {"nanoflann.hpp", {"modules/maps/points"}},
                                                            {"openvdb/", {"modules/maps/export", "modules/maps/vdb"}},
+                                                           {"octomap/", {"modules/maps/octomap"}},
+                                                           {"open3d/", {"modules/maps/tsdf"}},
                                                            {"dlfcn.h", {"framework/graph", "modules/prediction", "modules/rawlog"}}};
   for (const auto* folder : {"framework", "modules", "apps"}) {
     for (const auto& include : includes_of(folder)) {
