@@ -22,7 +22,11 @@ class OctomapPrediction final : public ViewPredictor {
             "where the ray enters that cell, middle is halfway through the run of occupied cells that begins with it.");
     params_.add("sigma_cells", sigma_cells_)
         .range(0.01, 10)
-        .doc("Standard deviation of the surface about that place, along the normal, in cells.");
+        .doc("Standard deviation of the surface about that place, along the normal, in cells ...");
+    params_.add("sigma_least", sigma_least_m_)
+        .unit("m")
+        .range(0, 1)
+        .doc("... and what is left however small they are: errors of poses and of the sensor's scale.");
     params_.add("range_most", range_most_m_).unit("m").above(0).doc("Cells farther away are not seen.");
   }
 
@@ -31,7 +35,8 @@ class OctomapPrediction final : public ViewPredictor {
   void predict(const Map& map, const Rows& rows, Prediction& out, int) const override {
     const auto& octree = static_cast<const OctomapMap&>(map);
     OctomapSurface surface(octree.tree(), place_);
-    const double sigma_m = sigma_cells_ * octree.resolution_m();
+    const double in_cell_m = sigma_cells_ * octree.resolution_m();
+    const auto variance = static_cast<float>(in_cell_m * in_cell_m + sigma_least_m_ * sigma_least_m_);
     const Eigen::Vector3d origin = out.T_map_camera.translation();
     const auto cols = static_cast<std::size_t>(out.camera.cols);
     for (auto i = static_cast<std::size_t>(rows.first) * cols; i < static_cast<std::size_t>(rows.end) * cols; ++i) {
@@ -39,7 +44,7 @@ class OctomapPrediction final : public ViewPredictor {
       const auto point = surface.look(origin, direction, range_most_m_);
       if (!point || point->range_m <= 0) continue;
       out.range[i] = static_cast<float>(point->range_m);
-      out.variance[i] = static_cast<float>(sigma_m * sigma_m);
+      out.variance[i] = variance;
       out.chunk[i] = out.face[i] = 0;
       Eigen::Map<Eigen::Vector3f>(&out.normal[3 * i]) = towards_camera(point->normal, direction.cast<float>());
     }
@@ -52,7 +57,8 @@ class OctomapPrediction final : public ViewPredictor {
   }
 
   OctomapPlace place_ = OctomapPlace::middle;
-  double sigma_cells_ = 0.5;
+  double sigma_cells_ = 0.4;
+  double sigma_least_m_ = 0.01;
   double range_most_m_ = 20;
 };
 
