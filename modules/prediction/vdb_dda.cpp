@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 
 #include "framework/graph/registry.hpp"
@@ -12,7 +13,7 @@ using namespace ppm;
 /// step, voxel by voxel where a leaf holds anything else.
 ///
 /// prediction  range to the surface; mean 0; variance of the log odds' profile along the ray (a logistic distribution
-///             whose scale is the way on which they rise by 1) and of the cells' size, both turned to the normal; normal
+///             whose scale is the way on which they rise by 1), of the cells' size and of surface_sigma, turned to the normal; normal
 ///             down the gradient of the log odds, towards the camera; chunk: the tile, face: the voxel in it. A ray that
 ///             meets nothing occupied is a miss, through free space as through unknown. Rays are followed when a pixel
 ///             is asked for: a likelihood that compares few pixels costs few rays.
@@ -33,6 +34,10 @@ class VdbDda final : public ViewPredictor {
     params_.add("cell_sigma", options_.cell_sigma)
         .range(0, 10)
         .doc("Standard deviation of the surface for the cells' size, in cells, beside that of the log odds' profile.");
+    params_.add("surface_sigma", surface_sigma_)
+        .unit("m")
+        .range(0, 1)
+        .doc("And for what the grid cannot know, whatever its cells: errors of the poses that it was mapped from.");
     params_.add("normal_reach", options_.normal_reach)
         .range(0.5, 4)
         .doc("Normals are central differences over so many cells to either side.");
@@ -42,7 +47,10 @@ class VdbDda final : public ViewPredictor {
 
   std::shared_ptr<DeferredView> defer(const Map& map, const Prediction& out) const override {
     auto view = views_.take();
-    view->start(static_cast<const VdbMap&>(map), options_, out);
+    const auto& grid = static_cast<const VdbMap&>(map);
+    VoxelRayOptions options = options_;
+    options.cell_sigma = static_cast<float>(std::hypot(options_.cell_sigma, surface_sigma_ / grid.settings().voxel_size_m));
+    view->start(grid, options, out);
     return view;
   }
 
@@ -50,6 +58,7 @@ class VdbDda final : public ViewPredictor {
 
  private:
   VoxelRayOptions options_;
+  double surface_sigma_ = 0.008;
   mutable Pool<VdbView> views_;
 };
 

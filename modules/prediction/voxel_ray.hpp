@@ -16,7 +16,7 @@ enum class VoxelSurface {
 
 struct VoxelRayOptions {
   VoxelSurface surface = VoxelSurface::crossing;
-  float cell_sigma = 0.5f;    ///< voxels: standard deviation beside that of the log odds' profile
+  float cell_sigma = 0.2f;    ///< voxels: standard deviation beside that of the log odds' profile
   float normal_reach = 1.5f;  ///< voxels between the samples of the gradient and the surface
 };
 

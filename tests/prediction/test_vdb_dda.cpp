@@ -140,10 +140,21 @@ TEST_CASE("an empty occupancy grid and one that is far away show nothing") {
 
 TEST_CASE("the cell form stops at the first cell's centre, nearer than the crossing by no more than a cell") {
   const auto map = box_map(0.05);
-  const auto crossing = views("{cell_sigma: 0}", map, 1)[0], cell = views("{surface: cell}", map, 1)[0];
+  const auto crossing = views("{}", map, 1)[0], cell = views("{surface: cell}", map, 1)[0];
   for (std::size_t p = 0; p < crossing->range.size(); ++p) {
     CHECK(std::abs(crossing->range[p] - cell->range[p]) < 2 * 0.05);
     CHECK(cell->range_variance(p, cell->direction(p)) == Approx(0.05 * 0.05 / 12).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("the surface's own deviation adds to that of the cells, in metres for any size of theirs") {
+  const auto map = box_map(0.05);
+  const auto without = views("{surface_sigma: 0, cell_sigma: 0.1}", map, 1)[0];
+  const auto with = views("{surface_sigma: 2 cm, cell_sigma: 0.1}", map, 1)[0];
+  for (std::size_t p = 0; p < with->range.size(); ++p) {
+    CHECK(with->range[p] == without->range[p]);
+    const auto ray = with->direction(p);
+    CHECK(with->range_variance(p, ray) == Approx(without->range_variance(p, ray) + 4e-4).epsilon(1e-3));
   }
 }
 
