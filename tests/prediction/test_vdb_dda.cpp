@@ -92,7 +92,7 @@ TEST_CASE("prediction.vdb_dda gives the same bytes whatever the threads") {
 
 TEST_CASE("prediction.vdb_dda predicts some rows as it predicts them among all") {
   const auto map = box_map(0.05);
-  const auto whole = views("{}", map, 1)[0];
+  const auto whole = views("{surface_sigma: 0}", map, 1)[0];
   Prediction bands;
   bands.reset(kCamera, 1, whole->T_map_camera);
   VdbView view;
