@@ -52,11 +52,13 @@ void caption(RgbImage& image, std::string_view text) {
   draw_text(image, text, 2 * height, image.rows - 2 * height, height, kInk);
 }
 
-/// By a light a little above and to the left of the camera, a fifth from everywhere. normal: camera frame.
+/// By a large light a little above and to the left of the camera, which reaches round to what is turned away by 110 degrees.
+/// normal: camera frame.
 Color lit(const Camera& camera, const Eigen::Vector3f& normal) {
   const float up = camera.fy > 0 ? -0.5f : 0.5f;  // image rows grow downwards
-  const float light = std::max(normal.dot(Eigen::Vector3f(-0.4f, up, -1).normalized()), 0.0f);
-  return (0.18f + 0.82f * light) * Color(0.96f, 0.94f, 0.90f);
+  const float cosine = normal.dot(Eigen::Vector3f(-0.4f, up, -1).normalized());
+  const float light = std::max(cosine + 0.35f, 0.0f) / 1.35f;
+  return (0.12f + 0.88f * light) * Color(0.96f, 0.94f, 0.90f);
 }
 
 }  // namespace
