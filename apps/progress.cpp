@@ -1,18 +1,12 @@
 #include "apps/progress.hpp"
 
-#include <cmath>
+#include "apps/compare/clock_text.hpp"
 
 namespace ppm {
 
 namespace {
 
 constexpr double kInterval_s = 0.1;
-
-std::string clock_text(double seconds) {
-  const auto s = static_cast<std::int64_t>(std::llround(seconds));
-  if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
-  return fmt::format("{}:{:02}", s / 60, s % 60);
-}
 
 }  // namespace
 

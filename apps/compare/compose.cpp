@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/graph/graph_builder.hpp"
 #include "framework/graph/override.hpp"
 
 namespace ppm {
@@ -54,22 +55,23 @@ void replace_frames(Config& nodes, const FrameNodes& frames) {
   nodes.items() = std::move(kept);
 }
 
-/// The node of that name, or the end, after a report.
+/// The node of that name, or the end after a report.
 std::vector<Config>::iterator find_node(Config& nodes, const std::string& name, const Place& place, Diagnostics& mistakes) {
-  auto& all = nodes.items();
-  const auto at = std::ranges::find_if(all, [&](const Config& node) { return text_of(node, "name") == name; });
-  if (at == all.end()) mistakes.push_back({place, fmt::format("the graph has no node '{}'", name)});
-  return at;
+  std::vector<std::string> names;
+  for (const auto& node : nodes.items()) names.push_back(text_of(node, "name"));
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) mistakes.push_back({place, fmt::format("no node '{}'{}", name, suggestion(name, names))});
+  return nodes.items().begin() + (found - names.begin());
 }
 
-void change_nodes(Config& nodes, const SuiteGraph& changes, Diagnostics& mistakes) {
-  for (const auto& node : changes.replaced) {
-    const auto at = find_node(nodes, text_of(node, "name"), node.place(), mistakes);
-    if (at != nodes.items().end()) *at = node;
+void change_nodes(Config& nodes, const Composition& how, Diagnostics& mistakes) {
+  for (const auto& node : how.replace) {
+    const auto old = find_node(nodes, text_of(node, "name"), node.place(), mistakes);
+    if (old != nodes.items().end()) *old = node;
   }
-  for (const auto& added : changes.added) {
-    const auto at = find_node(nodes, added.after, added.node.place(), mistakes);
-    if (at != nodes.items().end()) nodes.items().insert(at + 1, added.node);
+  for (const auto& added : how.add) {
+    const auto before = find_node(nodes, added.after, added.place, mistakes);
+    if (before != nodes.items().end()) nodes.items().insert(before + 1, added.node);
   }
 }
 
@@ -83,12 +85,6 @@ void make_plugins_absolute(Config& graph) {
 }
 
 }  // namespace
-
-std::optional<std::pair<std::string, std::string>> split_key(const std::string& text) {
-  const auto dot = text.find('.');
-  if (dot == std::string::npos || dot == 0 || dot + 1 == text.size()) return std::nullopt;
-  return std::pair(text.substr(0, dot), text.substr(dot + 1));
-}
 
 bool is_node(const Config& node, const std::string& word) {
   return text_of(node, "name") == word || text_of(node, "module") == word;
@@ -114,7 +110,7 @@ Config compose(Config graph, const std::string& name, const Composition& how, Di
   for (const auto& entry : graph.entries())
     if (entry.key != "name" && entry.key != "seed") experiment.set(entry.key, entry.key_place, entry.value);
   if (Config* nodes = nodes_of(experiment)) {
-    if (how.changes) change_nodes(*nodes, *how.changes, mistakes);
+    change_nodes(*nodes, how, mistakes);
     if (how.frames) replace_frames(*nodes, *how.frames);
     std::erase_if(nodes->items(), [&](const Config& node) {
       return std::ranges::any_of(how.drop, [&](const auto& word) { return is_node(node, word); });

@@ -63,6 +63,26 @@ void remove_job_state(const std::filesystem::path& folder) {
   std::filesystem::remove(folder / kFile);
 }
 
+void prepare_job(const std::filesystem::path& folder, const std::string& graph_yaml) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+  remove_job_state(folder);  // first: from here on the job has not run
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != kJobGraph) fs::remove_all(entry.path());
+  write_file(folder / kJobGraph, graph_yaml);
+}
+
+std::string read_experiment(const std::filesystem::path& folder, const Job& job) {
+  const auto file = folder / kJobGraph;
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  if (experiment_digest(job, text.str()) != job.experiment)
+    throw ConfigError(Place{file.string()}, fmt::format("is not there, or not the experiment of the plan: export {} again", job.name()));
+  return text.str();
+}
+
 bool is_done(const std::optional<JobState>& state, const Job& job, const std::string& build) {
   return state && state->status == JobState::Status::done && state->experiment == job.experiment &&
          (build.empty() || state->build == build);

@@ -29,6 +29,10 @@ void write_job_state(const std::filesystem::path& folder, const JobState& state)
 
 /// The job counts as not run.
 void remove_job_state(const std::filesystem::path& folder);
+/// Makes the folder of a job that is to be run, with its experiment and nothing else. Throws OutputError.
+void prepare_job(const std::filesystem::path& folder, const std::string& graph_yaml);
+/// The experiment of a job that was prepared. Throws ConfigError where it is not the one of the plan.
+std::string read_experiment(const std::filesystem::path& folder, const Job& job);
 
 /// True where a job need not run again: it is done, was the same experiment, and (build not empty) was run by that build.
 bool is_done(const std::optional<JobState>& state, const Job& job, const std::string& build);

@@ -16,7 +16,7 @@ struct Job {
   std::filesystem::path folder;  ///< in the suite's folder: runs/COMPARISON/SEQUENCE/GRAPH/seed_N
   int threads = 1, views = 0;
   double memory_bytes = 0, time_limit_s = 0;
-  std::string experiment;  ///< digest of all that the run is a function of: composed graph, seed, views; and of its threads
+  std::string experiment;  ///< experiment_digest()
 
   /// "comparison/sequence/graph/seed"
   std::string name() const;
@@ -24,21 +24,31 @@ struct Job {
   std::string kind() const { return comparison + "/" + sequence + "/" + graph; }
 };
 
+/// Digest of all that a run's results are a function of beside the data, and of what its times depend on: the composed graph, seed,
+/// views and threads.
+std::string experiment_digest(const Job& job, const std::string& graph_yaml);
+
 /// A job with the experiment that it runs.
 struct PlannedJob {
   Job job;
   std::string graph_yaml;
 };
 
-/// All runs of a suite, in the order of the file, seeds last.
+/// An optional graph that this ppm cannot run.
+struct LeftOut {
+  std::string comparison, graph, reason;
+};
+
+/// All runs of a suite, in the order of the file, seeds last. Graphs that are left out are no longer among those of `suite`.
 struct Plan {
   Suite suite;
   std::vector<PlannedJob> jobs;
+  std::vector<LeftOut> left_out;
 };
 
 /// Composes every graph of a suite with every sequence and checks the results as `ppm check` does. Throws one ConfigError with
-/// every mistake. plugins: libraries that every graph is run with, besides its own.
-Plan make_plan(Suite suite, const std::vector<std::filesystem::path>& plugins);
+/// every mistake, each once, however many compositions have it.
+Plan make_plan(Suite suite);
 
 /// A name as a part of a path: letters, digits and "_.=,-" stay, a run of others becomes one '_'.
 std::string folder_name(const std::string& name);

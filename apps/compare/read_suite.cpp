@@ -59,8 +59,7 @@ Suite SuiteReader::read(const Config& file) {
   for (const auto& tree : comparisons->items()) {
     if (!is_map(tree, "a comparison", "{name: x, graphs: [...]}", mistakes_)) continue;
     auto comparison = read_comparison(tree, runs);
-    if (std::ranges::any_of(suite.comparisons, [&](const auto& c) { return c.name == comparison.name; }))
-      report(place_of(tree, "name"), fmt::format("comparison name '{}' is taken", comparison.name));
+    check_taken(comparison.name, comparison.place, "comparison", suite.comparisons);
     suite.comparisons.push_back(std::move(comparison));
   }
   return suite;
@@ -68,6 +67,7 @@ Suite SuiteReader::read(const Config& file) {
 
 Comparison SuiteReader::read_comparison(const Config& tree, const RunSettings& of_suite) {
   Comparison comparison;
+  comparison.place = tree.place();
   comparison.runs = of_suite;
   Params params;
   params.add("name", comparison.name).required();

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "apps/compare/compose.hpp"
 #include "apps/compare/suite_reader.hpp"
 #include "framework/graph/graph_builder.hpp"
 
@@ -52,11 +51,9 @@ SuiteSequence SuiteReader::read_sequence(const Config& tree) {
   if (!tree.find("nodes") && !tree.find("like")) report(tree.place(), "a sequence needs 'nodes', or 'like' for those of another graph");
   if (const auto* frame = field(tree, "frame", Config::Kind::scalar, mistakes_)) sequence.frame = *frame;
   sequence.set = read_set(tree, "set");
-  if (const auto* seed = tree.find("seed")) {
-    const auto list = seed->kind() == Config::Kind::scalar ? Config::sequence({*seed}, seed->place()) : *seed;
-    sequence.seeded = read_words(list, "what gets the seed is a parameter, node.key", mistakes_);
-    for (const auto& [word, place] : sequence.seeded)
-      if (!split_key(word)) report(place, fmt::format("'{}': write node.key", word));
+  if (const auto* seed = field(tree, "seed", Config::Kind::scalar, mistakes_)) {
+    sequence.seed = split_key(seed->text(), seed->place());
+    sequence.seed.value = *seed;
   }
   return sequence;
 }
@@ -70,18 +67,19 @@ void SuiteReader::read_graph(const Config& tree, Comparison& comparison) {
   params.add("title", graph.title);
   params.add("graph", file).required();
   params.add("memory", graph.memory_bytes).unit("bytes").above(0);
-  read_fields(tree, "a graph", params, {"set", "set_for", "sweep", "drop", "replace", "add"}, mistakes_);
+  params.add("optional", graph.optional);
+  read_fields(tree, "a graph", params, {"replace", "add", "set", "set_for", "sweep", "drop"}, mistakes_);
   if (!graph.base_name.empty()) check_name(graph.base_name, tree.find("name")->place(), "graph name", mistakes_);
   if (graph.title.empty()) graph.title = graph.base_name;
   if (const auto* written = tree.find("graph")) {
     graph.file = path_beside(written->place(), file);
     graph.file_place = written->place();
   }
+  read_nodes(tree, graph);
   graph.set = read_set(tree, "set");
   read_set_for(tree, comparison, graph);
   if (const auto* drop = field(tree, "drop", Config::Kind::sequence, mistakes_))
     graph.drop = read_words(*drop, "what is dropped is a node's name or a module", mistakes_);
-  read_nodes(tree, graph);
   const auto points = read_sweep(tree);
   if (!points.empty()) check_swept(graph, points[0]);
   graph.name = graph.base_name;
@@ -99,41 +97,46 @@ void SuiteReader::read_graph(const Config& tree, Comparison& comparison) {
   }
 }
 
+/// Nodes in place of others, and besides them. Whether they are as nodes have to be is seen when the graph is built.
+void SuiteReader::read_nodes(const Config& tree, SuiteGraph& graph) {
+  if (const auto* replace = field(tree, "replace", Config::Kind::sequence, mistakes_)) {
+    for (const auto& node : replace->items())
+      if (is_map(node, "a node", "{name: x, module: y}", mistakes_)) graph.replace.push_back(node);
+  }
+  const auto* add = field(tree, "add", Config::Kind::sequence, mistakes_);
+  if (!add) return;
+  for (const auto& item : add->items()) {
+    if (!is_map(item, "an added node", "{after: w, name: x, module: y}", mistakes_)) continue;
+    AddedNode added{"", item.place(), Config::map(item.place())};
+    for (const auto& entry : item.entries()) {
+      if (entry.key == "after") {
+        added.after = entry.value.text();
+        added.place = entry.value.place();
+      } else {
+        added.node.set(entry.key, entry.key_place, entry.value);
+      }
+    }
+    if (added.after.empty()) report(added.place, "an added node needs the key 'after': the node that it follows");
+    graph.add.push_back(std::move(added));
+  }
+}
+
+Override SuiteReader::split_key(const std::string& key, const Place& place) {
+  const auto dot = key.find('.');
+  if (dot != std::string::npos && dot > 0 && dot + 1 < key.size()) return {key.substr(0, dot), key.substr(dot + 1), Config()};
+  report(place, fmt::format("'{}': a parameter is meant, node.key", key));
+  return {"", "", Config()};
+}
+
 std::vector<Override> SuiteReader::read_set(const Config& tree, const std::string& key) {
   std::vector<Override> set;
   const auto* map = field(tree, key, Config::Kind::map, mistakes_);
   if (!map) return set;
   for (const auto& entry : map->entries()) {
-    if (const auto parts = split_key(entry.key))
-      set.push_back({parts->first, parts->second, entry.value});
-    else
-      report(entry.key_place, fmt::format("'{}': write node.key: value", entry.key));
+    set.push_back(split_key(entry.key, entry.key_place));
+    set.back().value = entry.value;
   }
   return set;
-}
-
-bool SuiteReader::names_node(const Config& node, const std::string& key) {
-  const Config* name = node.find(key);
-  if (name && name->kind() == Config::Kind::scalar) return true;
-  report(name ? name->place() : node.place(), fmt::format("the node needs '{}', the name of a node", key));
-  return false;
-}
-
-/// The nodes that a graph gets: whether they are sound is seen when the composed graph is built.
-void SuiteReader::read_nodes(const Config& tree, SuiteGraph& graph) {
-  if (const auto* replaced = field(tree, "replace", Config::Kind::sequence, mistakes_))
-    for (const auto& node : replaced->items())
-      if (is_map(node, "a node", "{name: look, module: prediction.embree}", mistakes_) && names_node(node, "name"))
-        graph.replaced.push_back(node);
-  if (const auto* added = field(tree, "add", Config::Kind::sequence, mistakes_)) {
-    for (const auto& item : added->items()) {
-      if (!is_map(item, "a node", "{after: update, name: x, module: y}", mistakes_) || !names_node(item, "after")) continue;
-      AddedNode node{item.find("after")->text(), Config::map(item.place())};
-      for (const auto& entry : item.entries())
-        if (entry.key != "after") node.node.set(entry.key, entry.key_place, entry.value);
-      graph.added.push_back(std::move(node));
-    }
-  }
 }
 
 void SuiteReader::read_set_for(const Config& tree, const Comparison& comparison, SuiteGraph& graph) {

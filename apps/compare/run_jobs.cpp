@@ -1,12 +1,11 @@
 #include "apps/compare/run_jobs.hpp"
 
-#include <cmath>
 #include <cstring>
 #include <poll.h>
 #include <signal.h>
 
-#include "apps/compare/suite_folder.hpp"
-#include "framework/core/atomic_file.hpp"
+#include "apps/compare/clock_text.hpp"
+#include "apps/compare/plan_file.hpp"
 
 namespace ppm {
 
@@ -14,12 +13,6 @@ namespace {
 
 constexpr int kLogLines = 10;      // of a failed run, in job.json
 constexpr int kInterval_ms = 500;  // between looks at the clock
-
-std::string clock_text(double seconds) {
-  const auto s = static_cast<long>(std::lround(seconds));
-  if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
-  return fmt::format("{}:{:02}", s / 60, s % 60);
-}
 
 /// Why a run failed; "" where it did not.
 std::string failure(const ChildResult& result, const Job& job, bool too_long, const std::filesystem::path& folder) {
@@ -59,11 +52,7 @@ JobRunner::Outcome JobRunner::run(Schedule& schedule, const std::map<int, std::s
 
 void JobRunner::start(const Job& job, const std::string& graph_yaml) {
   const auto folder = folder_ / job.folder;
-  std::error_code error;
-  std::filesystem::remove_all(folder, error);
-  if (!error) std::filesystem::create_directories(folder, error);
-  if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
-  write_file(folder / kJobGraph, graph_yaml);
+  prepare_job(folder, graph_yaml);
   JobState state;
   state.seed = job.seed;
   state.threads = job.threads;

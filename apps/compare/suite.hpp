@@ -29,12 +29,13 @@ struct SuiteSequence {
   Place like_place;
   Config frame;                  ///< "node.output" of the frames that are read, or null: the last node's frame
   std::vector<Override> set;
-  std::vector<std::pair<std::string, Place>> seeded;  ///< "node.key" of parameters that get the run's seed too
+  Override seed;                 ///< a parameter that takes the seed of each run (of a simulated sensor); its value is "node.key" as written, null: none
 };
 
-/// A node that a graph gets.
+/// A node that a graph of a suite has besides those of its file.
 struct AddedNode {
-  std::string after;  ///< name of the node behind which it comes
+  std::string after;  ///< the node that it follows
+  Place place;
   Config node;
 };
 
@@ -46,17 +47,19 @@ struct SuiteGraph {
   Place place;
   std::filesystem::path file;
   Place file_place;
+  std::vector<Config> replace;  ///< nodes in place of those of the same name
+  std::vector<AddedNode> add;
   std::vector<Override> set;
   std::map<std::string, std::vector<Override>> set_for;  ///< by the name of a sequence
   std::vector<Override> sweep;                           ///< its point of the sweep
   std::vector<std::pair<std::string, Place>> drop;
-  std::vector<Config> replaced;   ///< nodes, each in place of the graph's node of that name
-  std::vector<AddedNode> added;
   double memory_bytes = 0;  ///< 0: as the comparison has it
+  bool optional = false;    ///< left out where this ppm lacks a module of it
 };
 
 struct Comparison {
   std::string name, title;
+  Place place;
   std::string subject, against;  ///< names of graphs; `against` is "" where there is no second one
   RunSettings runs;
   std::vector<SuiteSequence> sequences;  ///< none: each graph runs on its own frames

@@ -1,7 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "apps/compare/plan.hpp"
 
@@ -25,13 +23,5 @@ class SuiteLock {
  private:
   int fd_ = -1;
 };
-
-/// Writes suite.json: the whole plan, as docs/compare.md describes it. program: the executable of the runs.
-void write_plan(const std::filesystem::path& folder, const Plan& plan, const std::string& program);
-/// The jobs of suite.json. Throws ConfigError where there is none, or it is not as write_plan() writes it.
-std::vector<Job> read_jobs(const std::filesystem::path& folder);
-
-/// The command that runs a job.
-std::vector<std::string> command_of(const Job& job, const std::filesystem::path& suite_folder, const std::string& program);
 
 }  // namespace ppm

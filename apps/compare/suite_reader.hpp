@@ -27,6 +27,8 @@ class SuiteReader {
   SuiteSequence read_sequence(const Config& tree);
   void read_graph(const Config& tree, Comparison& comparison);
   std::vector<Override> read_set(const Config& tree, const std::string& key);
+  Override split_key(const std::string& key, const Place& place);
+  void read_nodes(const Config& tree, SuiteGraph& graph);
   void read_set_for(const Config& tree, const Comparison& comparison, SuiteGraph& graph);
   std::vector<std::vector<Override>> read_sweep(const Config& tree);
   void read_nodes(const Config& tree, SuiteGraph& graph);

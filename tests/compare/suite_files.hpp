@@ -37,7 +37,7 @@ nodes:
     write_text(suite_file(), text);
     return read_suite(suite_file());
   }
-  Plan plan(const std::string& text) const { return make_plan(suite(text), {}); }
+  Plan plan(const std::string& text) const { return make_plan(suite(text)); }
   /// Messages of the mistakes of a suite, with "SUITE" in place of its file and "DIR/" of its folder.
   std::string complaint(const std::string& text) const {
     try {
