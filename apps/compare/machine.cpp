@@ -90,7 +90,9 @@ std::string build_digest() {
   ::dl_iterate_phdr(
       [](dl_phdr_info* info, std::size_t, void* list) {
         const std::filesystem::path file = info->dlpi_name;
-        if (file.filename().string().starts_with("libppm_")) static_cast<std::vector<std::string>*>(list)->push_back(file.string());
+        const auto name = file.filename().string();
+        if (name.starts_with("libppm_framework.") || name.starts_with("libppm_maps."))
+          static_cast<std::vector<std::string>*>(list)->push_back(file.string());
         return 0;
       },
       &files);

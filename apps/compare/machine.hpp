@@ -15,9 +15,9 @@ Machine this_machine();
 /// Memory that could be taken now, bytes: the machine's, or that of the control group that this process is confined to.
 std::uint64_t free_memory();
 
-/// Digest of this program: its executable and those of ppm's libraries that it has loaded.
+/// Digest of this program: its executable and the libraries of ppm that it is linked with. Plug-ins are no part of it.
 std::string build_digest();
-/// The executable, and the current folder.
+/// Path of this program's executable.
 std::string this_program();
 
 }  // namespace ppm

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "apps/compare/suite_schema.hpp"
 #include "tests/compare/suite_files.hpp"
 
 using namespace ppm;
@@ -101,4 +102,47 @@ TEST_CASE("a suite that is no map, has no comparisons, or names a graph twice") 
   CHECK_THAT(files.complaint(kTop + "  - {name: c, graphs: [{name: x, graph: room.yaml}, {name: x, graph: plain.yaml}]}\n"),
              Contains("graph name 'x' is taken, by the one at SUITE:3:24"));
   CHECK_THAT(files.complaint(kTop + "  - {name: c, against: x, graphs: [{name: x, graph: room.yaml}]}\n"), Contains("SUITE:3:24: a graph is compared with itself"));
+}
+
+namespace {
+
+/// A suite with every key, as JSON, which is YAML too.
+const char* const kEveryKey = R"({
+  "name": "s", "title": "S", "seeds": 2, "threads": 1, "views": 0, "memory": "1 GB", "time_limit": "1 h", "drop": ["table"],
+  "slurm": {"at_once": 2, "options": ["-p x"]},
+  "comparisons": [{
+    "name": "c", "title": "C", "seeds": [1], "threads": 1, "views": 0, "memory": "1 GB", "time_limit": "1 h", "drop": ["table"],
+    "subject": "a[init.texel_size=1 cm]", "against": "b",
+    "sequences": [{"name": "s", "title": "S", "nodes": [], "like": "plain.yaml", "frame": "eye.frame", "seed": "eye.seed", "set": {}}],
+    "graphs": [
+      {"name": "a", "title": "A", "graph": "room.yaml", "memory": "1 GB", "optional": true, "replace": [], "add": [], "drop": ["table"], "set": {},
+       "set_for": {"s": {}}, "sweep": {"init.texel_size": ["1 cm"]}},
+      {"name": "b", "graph": "room.yaml"}],
+    "skip": [{"graph": "b", "sequence": "s"}]}]})";
+
+std::vector<std::string> keys(const nlohmann::json& object) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : object.items()) names.push_back(key);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("the schema of suites knows the keys that the reader knows, and no others") {
+  const auto schema = nlohmann::json::parse(suite_schema());
+  const auto all = nlohmann::json::parse(kEveryKey);
+  CHECK(keys(schema["properties"]) == keys(all));
+  const auto& comparison = schema["properties"]["comparisons"]["items"]["properties"];
+  CHECK(keys(comparison) == keys(all["comparisons"][0]));
+  CHECK(keys(comparison["sequences"]["items"]["properties"]) == keys(all["comparisons"][0]["sequences"][0]));
+  CHECK(keys(comparison["graphs"]["items"]["properties"]) == keys(all["comparisons"][0]["graphs"][0]));
+  CHECK(keys(comparison["skip"]["items"]["properties"]) == keys(all["comparisons"][0]["skip"][0]));
+  CHECK(keys(schema["properties"]["slurm"]["properties"]) == keys(all["slurm"]));
+
+  const SuiteFiles files;
+  CHECK_THAT(files.complaint(kEveryKey), !Contains("unknown key"));
+}
+
+TEST_CASE("configs/schema/suite.schema.json is what `ppm schema --suite` prints") {
+  CHECK((content(std::string(PPM_SOURCE_DIR) + "/configs/schema/suite.schema.json") == suite_schema()));
 }
