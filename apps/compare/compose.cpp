@@ -60,7 +60,7 @@ std::vector<Config>::iterator find_node(Config& nodes, const std::string& name, 
   std::vector<std::string> names;
   for (const auto& node : nodes.items()) names.push_back(text_of(node, "name"));
   const auto found = std::ranges::find(names, name);
-  if (found == names.end()) mistakes.push_back({place, fmt::format("no node '{}'{}", name, suggestion(name, names))});
+  if (found == names.end()) mistakes.push_back({place, fmt::format("the graph has no node '{}'{}", name, suggestion(name, names))});
   return nodes.items().begin() + (found - names.begin());
 }
 

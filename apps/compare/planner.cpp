@@ -120,10 +120,8 @@ void Planner::add_graph(const Comparison& comparison, const SuiteGraph& graph, c
   const auto context = fmt::format("{} on {} in {}", graph.name, sequence_name, comparison.name);
   for (const auto seed : comparison.runs.seeds) {
     Composition how = composition(comparison, graph, sequence, frames);
-    if (sequence && !sequence->seed.node.empty()) {
-      how.set.push_back(sequence->seed);
-      how.set.back().value = Config::scalar(std::to_string(seed), sequence->seed.value.place());
-    }
+    for (const auto& o : sequence ? sequence->seeded : std::vector<Override>())
+      how.set.push_back({o.node, o.key, Config::scalar(std::to_string(seed), o.value.place())});
     Diagnostics wrong;
     const Config experiment = compose(*file, graph.base_name + "." + sequence_name, how, wrong);
     for (auto& mistake : wrong) report(std::move(mistake), context);

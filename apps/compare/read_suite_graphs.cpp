@@ -51,9 +51,12 @@ SuiteSequence SuiteReader::read_sequence(const Config& tree) {
   if (!tree.find("nodes") && !tree.find("like")) report(tree.place(), "a sequence needs 'nodes', or 'like' for those of another graph");
   if (const auto* frame = field(tree, "frame", Config::Kind::scalar, mistakes_)) sequence.frame = *frame;
   sequence.set = read_set(tree, "set");
-  if (const auto* seed = field(tree, "seed", Config::Kind::scalar, mistakes_)) {
-    sequence.seed = split_key(seed->text(), seed->place());
-    sequence.seed.value = *seed;
+  if (const auto* seed = tree.find("seed")) {
+    const auto list = seed->kind() == Config::Kind::scalar ? Config::sequence({*seed}, seed->place()) : *seed;
+    for (const auto& [word, place] : read_words(list, "what gets the seed is a parameter, node.key", mistakes_)) {
+      sequence.seeded.push_back(split_key(word, place));
+      sequence.seeded.back().value = Config::scalar(word, place);
+    }
   }
   return sequence;
 }
@@ -111,12 +114,11 @@ void SuiteReader::read_nodes(const Config& tree, SuiteGraph& graph) {
     for (const auto& entry : item.entries()) {
       if (entry.key == "after") {
         added.after = entry.value.text();
-        added.place = entry.value.place();
       } else {
         added.node.set(entry.key, entry.key_place, entry.value);
       }
     }
-    if (added.after.empty()) report(added.place, "an added node needs the key 'after': the node that it follows");
+    if (added.after.empty()) report(added.place, "the node needs 'after', the name of the one that it follows");
     graph.add.push_back(std::move(added));
   }
 }
@@ -124,7 +126,7 @@ void SuiteReader::read_nodes(const Config& tree, SuiteGraph& graph) {
 Override SuiteReader::split_key(const std::string& key, const Place& place) {
   const auto dot = key.find('.');
   if (dot != std::string::npos && dot > 0 && dot + 1 < key.size()) return {key.substr(0, dot), key.substr(dot + 1), Config()};
-  report(place, fmt::format("'{}': a parameter is meant, node.key", key));
+  report(place, fmt::format("'{}': write node.key", key));
   return {"", "", Config()};
 }
 

@@ -29,7 +29,7 @@ struct SuiteSequence {
   Place like_place;
   Config frame;                  ///< "node.output" of the frames that are read, or null: the last node's frame
   std::vector<Override> set;
-  Override seed;                 ///< a parameter that takes the seed of each run (of a simulated sensor); its value is "node.key" as written, null: none
+  std::vector<Override> seeded;  ///< parameters that get the run's seed too; the values are "node.key" as written
 };
 
 /// A node that a graph of a suite has besides those of its file.

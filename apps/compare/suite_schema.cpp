@@ -57,7 +57,7 @@ Json sequence_schema() {
                  {"nodes", list({{"type", "object"}}, "Nodes of source.*, preprocess.* and sensor.* modules, as in a graph.")},
                  {"like", text("In place of nodes: those of another graph, a file relative to the suite's.")},
                  {"frame", text("Output that the other nodes read. Default: the last node's frame.")},
-                 {"seed", text("A parameter, node.key, that takes the seed of each run.")},
+                 {"seed", {{"type", {"string", "array"}}, {"items", {{"type", "string"}}}, {"description", "Parameters, node.key, that get the run's seed too."}}},
                  {"set", values("Values in place of those of the nodes.")}},
                 {"name"});
 }

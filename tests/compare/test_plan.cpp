@@ -190,42 +190,6 @@ TEST_CASE("plug-ins of a graph are named by absolute paths in the experiment") {
   CHECK_THAT(compose(graph, "n", {}, mistakes).to_yaml(), Contains("plugins: [/home/me/lib/x.so]"));
 }
 
-TEST_CASE("nodes are replaced and added before the sequence's take the place of the graph's") {
-  const SuiteFiles files;
-  const auto plan = files.plan(kTop + R"(  - name: c
-    sequences: [{name: s, like: plain.yaml}]
-    graphs:
-      - name: a
-        graph: room.yaml
-        replace: [{name: look, module: prediction.embree, in: {frame: solid.frame}}]
-        add: [{after: update, name: thin, module: simplify.meshoptimizer}]
-)");
-  CHECK_THAT(plan.jobs[0].graph_yaml, Contains("name: look\n    module: prediction.embree\n    in:\n      frame: eye.frame\n  - name: update") &&
-                                          Contains("  - name: thin\n    module: simplify.meshoptimizer\n  - name: table"));
-  const auto told = files.complaint(kTop + R"(  - name: c
-    graphs: [{name: a, graph: room.yaml, replace: [{name: lok, module: prediction.embree}], add: [{after: updat, name: x, module: y}, {name: z, module: y}]}]
-)");
-  INFO(told);
-  CHECK_THAT(told, Contains("SUITE:4:131: an added node needs the key 'after'"));
-  const auto more = files.complaint(kTop + R"(  - name: c
-    graphs: [{name: a, graph: room.yaml, replace: [{name: lok, module: prediction.embree}], add: [{after: updat, name: x, module: sink.metrics}]}]
-)");
-  INFO(more);
-  CHECK_THAT(more, Contains("SUITE:4:52: no node 'lok'; did you mean 'look'?") && Contains("no node 'updat'; did you mean 'update'?"));
-}
-
-TEST_CASE("a parameter of a sequence may take the seed of each run") {
-  const SuiteFiles files;
-  const auto plan = files.plan(kTop + R"(  - name: c
-    seeds: [3, 11]
-    sequences: [{name: s, like: plain.yaml, seed: eye.seed}]
-    graphs: [{name: a, graph: room.yaml}]
-)");
-  REQUIRE(plan.jobs.size() == 2);
-  CHECK_THAT(plan.jobs[0].graph_yaml, Contains("seed: 3\n"));
-  CHECK_THAT(plan.jobs[1].graph_yaml, Contains("seed: 11\n"));
-}
-
 TEST_CASE("an optional graph is left out where a module of it is not there; the subject cannot be") {
   const SuiteFiles files;
   write_text(files.folder / "octo.yaml", "name: octo\nnodes:\n  - {name: eye, module: source.synthetic_room}\n  - {name: init, module: map.of_others, in: {frame: eye.frame}}\n");

@@ -87,7 +87,7 @@ comparisons:
   for (const auto* part :
        {"SUITE:1:7: suite name 'a/b'", "SUITE:2:8: seeds: '0' is out of range", "SUITE:3:9: memory: '2 cm' is a length", "SUITE:4:1: unknown key 'thread' of the suite; did you mean 'threads'?",
         "SUITE:7:14: no graph 'pm'; did you mean 'ppm'?", "SUITE:8:16: seed 1 is there already", "SUITE:10:9: a sequence needs 'nodes', or 'like'",
-        "SUITE:11:9: a sequence has 'nodes' or 'like', not both", "SUITE:13:45: 'texel_size': a parameter is meant, node.key", "SUITE:13:74: no sequence 'u'",
+        "SUITE:11:9: a sequence has 'nodes' or 'like', not both", "SUITE:13:45: 'texel_size': write node.key", "SUITE:13:74: no sequence 'u'",
         "SUITE:14:63: 'init.texel_size' is set and swept", "SUITE:14:108: a sweep is a list of values", "SUITE:15:20: no graph 'pmp'; did you mean 'ppm'?",
         "SUITE:16:5: a comparison needs the parameter 'name'", "SUITE:16:5: a comparison needs the key 'graphs'"})
     CHECK_THAT(told, Contains(part));
