@@ -100,25 +100,26 @@ void SuiteReader::read_graph(const Config& tree, Comparison& comparison) {
   }
 }
 
+bool SuiteReader::names_node(const Config& node, const std::string& key) {
+  const Config* name = node.find(key);
+  if (name && name->kind() == Config::Kind::scalar) return true;
+  report(name ? name->place() : node.place(), fmt::format("the node needs '{}', the name of a node", key));
+  return false;
+}
+
 /// Nodes in place of others, and besides them. Whether they are as nodes have to be is seen when the graph is built.
 void SuiteReader::read_nodes(const Config& tree, SuiteGraph& graph) {
   if (const auto* replace = field(tree, "replace", Config::Kind::sequence, mistakes_)) {
     for (const auto& node : replace->items())
-      if (is_map(node, "a node", "{name: x, module: y}", mistakes_)) graph.replace.push_back(node);
+      if (is_map(node, "a node", "{name: x, module: y}", mistakes_) && names_node(node, "name")) graph.replace.push_back(node);
   }
   const auto* add = field(tree, "add", Config::Kind::sequence, mistakes_);
   if (!add) return;
   for (const auto& item : add->items()) {
-    if (!is_map(item, "an added node", "{after: w, name: x, module: y}", mistakes_)) continue;
-    AddedNode added{"", item.place(), Config::map(item.place())};
-    for (const auto& entry : item.entries()) {
-      if (entry.key == "after") {
-        added.after = entry.value.text();
-      } else {
-        added.node.set(entry.key, entry.key_place, entry.value);
-      }
-    }
-    if (added.after.empty()) report(added.place, "the node needs 'after', the name of the one that it follows");
+    if (!is_map(item, "an added node", "{after: w, name: x, module: y}", mistakes_) || !names_node(item, "after")) continue;
+    AddedNode added{item.find("after")->text(), item.place(), Config::map(item.place())};
+    for (const auto& entry : item.entries())
+      if (entry.key != "after") added.node.set(entry.key, entry.key_place, entry.value);
     graph.add.push_back(std::move(added));
   }
 }

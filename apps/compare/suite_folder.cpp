@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kLock = "suite.lock";
 
 /// Nothing there but the lock of an attempt that was killed before it had written its plan.
-bool is_empty(const std::filesystem::path& folder) {
+bool holds_nothing(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().filename() != kLock) return false;
   return true;
@@ -31,7 +31,7 @@ void make_suite_folder(const std::filesystem::path& folder, const Suite& suite) 
   fs::create_directories(folder, error);
   if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
   const auto name = name_in_plan(folder);
-  if (name.empty() && !is_empty(folder)) throw ConfigError(place, "the folder holds other things than a suite");
+  if (name.empty() && !holds_nothing(folder)) throw ConfigError(place, "the folder holds other things than a suite");
   if (!name.empty() && name != suite.name)
     throw ConfigError(place, fmt::format("the folder holds the suite '{}', this is '{}'", name, suite.name));
 }

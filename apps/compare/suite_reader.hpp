@@ -29,10 +29,9 @@ class SuiteReader {
   std::vector<Override> read_set(const Config& tree, const std::string& key);
   Override split_key(const std::string& key, const Place& place);
   void read_nodes(const Config& tree, SuiteGraph& graph);
+  bool names_node(const Config& node, const std::string& key);
   void read_set_for(const Config& tree, const Comparison& comparison, SuiteGraph& graph);
   std::vector<std::vector<Override>> read_sweep(const Config& tree);
-  void read_nodes(const Config& tree, SuiteGraph& graph);
-  bool names_node(const Config& node, const std::string& key);
   void check_swept(const SuiteGraph& graph, const std::vector<Override>& point);
   template <class T>
   void check_taken(const std::string& name, const Place& place, const std::string& what, const std::vector<T>& others) {
