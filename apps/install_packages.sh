@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that ppm is built from and tested with. Nothing to do where they are there.
-#   bash apps/install_packages.sh [--optional]   also what plug-ins are built from: other people's maps
+#   bash apps/install_packages.sh [--optional]   also what plug-ins are built from (other people's maps), and a Slurm to test job arrays with
 set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache mold pkg-config git
@@ -10,7 +10,7 @@ packages=(
   libegl-dev libgl-dev libegl1 libgl1-mesa-dri
   catch2 libopenmesh-dev libtinygltf-dev libbenchmark-dev libmrpt-poses-dev libmrpt-obs-dev libmrpt-bayes-dev jq
 )
-optional=(liboctomap-dev libopen3d-dev)
+optional=(liboctomap-dev libopen3d-dev slurmctld slurmd slurm-client munge)
 case "${1:-}" in
   "") ;;
   --optional) packages+=("${optional[@]}") ;;
