@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "apps/report/not_done.hpp"
 #include "apps/report/outputs.hpp"
 #include "apps/report/page_parts.hpp"
 
@@ -77,10 +78,12 @@ std::string equal_cost_md(const Analysis& a, const SequenceEntry& sequence) {
 std::string failures_md(const Comparison& c) {
   std::string md;
   for (const auto& run : c.runs)
-    if (run.status != RunStatus::done || lost_at_end(run))
+    if (run.status == RunStatus::failed || lost_at_end(run))
       md += fmt::format("- {}, {}, seed {}: {} {}\n", run.sequence, c.graph(run.graph).title, run.seed,
                         lost_at_end(run) ? "lost in the end" : to_string(run.status), cell(run.error));
-  return md.empty() ? "" : "Runs that failed, were lost or are not done:\n\n" + md + "\n";
+  if (!md.empty()) md = "Runs that failed or were lost:\n\n" + md + "\n";
+  const auto waiting = not_done_sentence(c);
+  return waiting.empty() ? md : md + waiting + "\n\n";
 }
 
 }  // namespace

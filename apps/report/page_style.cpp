@@ -23,7 +23,7 @@ svg.plot { width: 100%; height: auto; display: block; } svg.plot text { font: 11
 svg.plot .head { font-weight: 600; font-size: 13px; } svg.plot .x { text-anchor: middle; } svg.plot .y { text-anchor: end; }
 svg.plot .grid { stroke: #e6e6e6; fill: none; } svg.plot .axis { stroke: #666; fill: none; } svg.plot .diagonal { stroke: #999; stroke-dasharray: 4 4; fill: none; }
 svg.plot .band { opacity: .15; stroke: none; } svg.plot .line { fill: none; stroke-width: 1.8; stroke-linejoin: round; } svg.plot .leader { stroke: #ccc; fill: none; }
-.views { display: grid; grid-template-columns: repeat(auto-fill, minmax(210px, 1fr)); gap: 6px; }
+.views { display: grid; grid-template-columns: repeat(auto-fill, minmax(175px, 1fr)); gap: 6px; }
 .views figure, .maps figure { margin: 0; } .views img, .maps img { width: 100%; height: auto; display: block; background: #eee; }
 .maps { display: grid; grid-template-columns: repeat(auto-fill, minmax(320px, 1fr)); gap: 8px; } figcaption { font-size: .8em; }
 pre { font-size: .78em; overflow-x: auto; background: #f7f7f7; padding: .6em; white-space: pre-wrap; overflow-wrap: anywhere; }

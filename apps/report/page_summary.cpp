@@ -9,11 +9,6 @@ namespace ppm::report {
 
 namespace {
 
-std::string sequence_title(const Comparison& c, const std::string& name) {
-  const auto found = std::ranges::find(c.sequences, name, &SequenceEntry::name);
-  return found == c.sequences.end() ? name.empty() ? "all sequences" : name : found->title;
-}
-
 std::string claims_table(const Analysis& a) {
   if (a.claims.empty()) return "";
   std::string rows;
@@ -54,22 +49,24 @@ std::string difference_row(const Comparison& c, const Difference& d) {
       d.differences.size());
 }
 
-/// The differences with one verdict, the worst first.
+std::string difference_rows(const std::string& rows) {
+  return "<div class=\"wide\"><table><tr><th>sequence</th><th>against</th><th>measure</th><th>subject</th><th>other</th>"
+         "<th>subject - other</th><th>level</th><th>seeds of that sign</th></tr>\n" +
+         rows + "</table></div>\n";
+}
+
+/// The differences with one verdict, the worst first; those beyond the first kAtOnce folded away.
 std::string differences_table(const Analysis& a, Verdict verdict, const char* title, bool open) {
-  std::string rows;
+  constexpr int kAtOnce = 40;
+  std::string rows, more;
   int count = 0;
-  for (const auto& d : a.differences) {
-    if (d.verdict != verdict) continue;
-    rows += difference_row(a.comparison, d);
-    ++count;
-  }
+  for (const auto& d : a.differences)
+    if (d.verdict == verdict) (count++ < kAtOnce ? rows : more) += difference_row(a.comparison, d);
   if (count == 0) return fmt::format("<p>{}: none.</p>\n", title);
-  return fmt::format(
-      "<details{}><summary>{}: {}</summary>\n<div "
-      "class=\"wide\"><table><tr><th>sequence</th><th>against</th><th>measure</th>"
-      "<th>subject</th><th>other</th><th>subject - other</th><th>level</th><th>seeds of that "
-      "sign</th></tr>\n{}</table></div></details>\n",
-      open ? " open" : "", title, count, rows);
+  if (!more.empty())
+    more = fmt::format("<details><summary>{} more</summary>\n{}</details>\n", count - kAtOnce, difference_rows(more));
+  return fmt::format("<details{}><summary>{}: {}</summary>\n{}{}</details>\n", open ? " open" : "", title, count,
+                     difference_rows(rows), more);
 }
 
 }  // namespace
@@ -88,22 +85,6 @@ std::string summary_html(const Analysis& a) {
          differences_table(a, Verdict::worse, "Subject worse", true) +
          differences_table(a, Verdict::tie, "No difference found", false) +
          differences_table(a, Verdict::better, "Subject better", false);
-}
-
-std::string failures_html(const Comparison& c) {
-  std::string rows;
-  for (const auto& run : c.runs) {
-    if (run.status == RunStatus::done && !lost_at_end(run)) continue;
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        escaped(sequence_title(c, run.sequence)), escaped(c.graph(run.graph).title), run.seed,
-                        lost_at_end(run) ? "lost in the end" : to_string(run.status), escaped(run.error));
-  }
-  if (rows.empty()) return "";
-  return "<h3>Runs that failed, were lost or are not done</h3>\n<p>A run that failed counts as worse than any other in "
-         "every measure. Runs that are not done count nowhere.</p>\n<div class=\"wide\"><table "
-         "class=\"t\"><tr><th>sequence</th>"
-         "<th>graph</th><th>seed</th><th>status</th><th>why</th></tr>\n" +
-         rows + "</table></div>\n";
 }
 
 std::string statistics_text() {

@@ -200,10 +200,79 @@ TEST_CASE("pictures of the same frames stand beside each other, small enough for
   for (auto at = html.find("<img"); at != std::string::npos; at = html.find("<img", at + 1)) ++pictures;
   CHECK(pictures == 1 + 2 * 2 + 1);  // measured once; two graphs; a map
   CHECK_THAT(html, Contains("Held-out frame 5") && Contains("OpenVDB 2 cm, error"));
-  RgbImage quarter{320, 240, std::vector<std::uint8_t>(320 * 240 * 3, 100)};
-  CHECK_THAT(html, Contains(ppm::report::base64(to_png(quarter))));
+  const RgbImage eighth{160, 120, std::vector<std::uint8_t>(160 * 120 * 3, 100)};
+  CHECK_THAT(html, Contains(ppm::report::base64(to_png(in_palette(eighth, 16)))));
   put(suite.run("kitchen", "ppm", 1) / "map.png", "no picture");
   CHECK_THROWS_WITH(write_report(suite.path()), Contains("map.png"));
+}
+
+TEST_CASE("pictures are those of the lowest seed that has any") {
+  SuiteFixture suite;
+  suite.write();
+  for (const int seed : {2, 3}) {
+    const std::vector<std::uint8_t> rgb(3, static_cast<std::uint8_t>(seed));
+    put(suite.run("room", "ppm", seed) / "map.png", to_png(RgbImage{1, 1, rgb}));
+  }
+  write_report(suite.path());
+  const auto html = content(suite.path() / "report.html");
+  const auto shows = [&](std::uint8_t gray) {
+    const auto png = to_png(in_palette(RgbImage{1, 1, {gray, gray, gray}}, 16));
+    return html.find(ppm::report::base64(png)) != std::string::npos;
+  };
+  CHECK(shows(2));
+  CHECK_FALSE(shows(3));
+}
+
+TEST_CASE("missing runs are a line a sequence and graph, folded away where they are many; failed ones stand before") {
+  SuiteFixture suite;
+  suite.write();
+  for (const int seed : {1, 3, 4, 5}) std::filesystem::remove_all(suite.run("room", "ppm", seed));
+  for (const int seed : {2, 3}) std::filesystem::remove_all(suite.run("kitchen", "vdb_2cm", seed));
+  suite.fail("room", "vdb_2cm", 5, "killed");
+  write_report(suite.path());
+  auto html = content(suite.path() / "report.html");
+  CHECK_THAT(html, Contains("<td>Room</td><td>PPM</td><td>seeds 1, 3 to 5</td><td>missing</td>") &&
+                       Contains("<td>OpenVDB 2 cm</td><td>seeds 2, 3</td>"));
+  CHECK(html.find("killed") < html.find("seeds 2, 3"));
+  CHECK(html.find("runs are not done") == std::string::npos);
+  CHECK_THAT(content(suite.path() / "report.md"),
+             Contains("- room, OpenVDB 2 cm, seed 5: failed killed\n\n"
+                      "6 of 50 runs are not done: on kitchen seeds 2, 3 of OpenVDB 2 cm; on room seeds 1, 3 to 5 of "
+                      "PPM."));
+
+  suite.graphs.push_back(suite.graphs[0]);
+  suite.graphs.back().name = "late";
+  suite.write();
+  for (const auto& graph : suite.graphs)
+    for (const char* sequence : {"kitchen", "room"})
+      for (int seed = 2; seed <= 5; ++seed) std::filesystem::remove_all(suite.run(sequence, graph.name, seed));
+  write_report(suite.path());
+  html = content(suite.path() / "report.html");
+  check_nesting(html);
+  CHECK_THAT(html, Contains("<details><summary>48 of 60 runs are not done: on kitchen seeds 2 to 5 of 6 graphs; on room "
+                            "seeds 2 to 5 of 6 graphs.</summary>"));
+}
+
+TEST_CASE("of many losses the worst forty are open") {
+  SuiteFixture suite;
+  auto& subject = suite.graphs[0];
+  subject.error_mm = subject.mebibytes = subject.cpu_ms = 500;
+  subject.ate_cm = 50;
+  suite.write();
+  write_report(suite.path());
+  const auto html = content(suite.path() / "report.html");
+  check_nesting(html);
+  const auto open = html.find("<summary>Subject worse: "), rest = html.find(" more</summary>"),
+             ties = html.find("No difference found");
+  REQUIRE(open < rest);
+  REQUIRE(rest < ties);
+  const auto rows = [&](std::size_t from, std::size_t to) {
+    std::size_t count = 0;
+    for (auto at = html.find("<tr class=", from); at < to; at = html.find("<tr class=", at + 1)) ++count;
+    return count;
+  };
+  CHECK(rows(open, rest) == 40);
+  CHECK(html.substr(open, 60).find(std::to_string(40 + rows(rest, ties)) + "</summary>") != std::string::npos);
 }
 
 TEST_CASE("a subject whose runs failed does not drop out of the summary") {
