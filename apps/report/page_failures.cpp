@@ -44,8 +44,8 @@ std::string failures_html(const Comparison& c) {
       "every measure. Runs that are not done count nowhere.</p>\n";
   if (parts.size() <= kAtOnce) return html + table(failed + waiting);
   if (!failed.empty()) html += table(failed);
-  return html + fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(not_done_sentence(c)),
-                            table(waiting));
+  return html +
+         fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(not_done_sentence(c)), table(waiting));
 }
 
 }  // namespace ppm::report

@@ -50,7 +50,8 @@ std::string difference_row(const Comparison& c, const Difference& d) {
 }
 
 std::string difference_rows(const std::string& rows) {
-  return "<div class=\"wide\"><table><tr><th>sequence</th><th>against</th><th>measure</th><th>subject</th><th>other</th>"
+  return "<div "
+         "class=\"wide\"><table><tr><th>sequence</th><th>against</th><th>measure</th><th>subject</th><th>other</th>"
          "<th>subject - other</th><th>level</th><th>seeds of that sign</th></tr>\n" +
          rows + "</table></div>\n";
 }

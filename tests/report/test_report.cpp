@@ -249,8 +249,9 @@ TEST_CASE("missing runs are a line a sequence and graph, folded away where they 
   write_report(suite.path());
   html = content(suite.path() / "report.html");
   check_nesting(html);
-  CHECK_THAT(html, Contains("<details><summary>48 of 60 runs are not done: on kitchen seeds 2 to 5 of 6 graphs; on room "
-                            "seeds 2 to 5 of 6 graphs.</summary>"));
+  CHECK_THAT(html,
+             Contains("<details><summary>48 of 60 runs are not done: on kitchen seeds 2 to 5 of 6 graphs; on room "
+                      "seeds 2 to 5 of 6 graphs.</summary>"));
 }
 
 TEST_CASE("of many losses the worst forty are open") {

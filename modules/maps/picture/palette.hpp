@@ -15,8 +15,8 @@ struct PaletteImage {
 };
 
 /// The picture in at most so many colours (2 to 256), each the mean of those that it stands for; unchanged where it has
-/// no more. Colours are split where that saves most squared error, at the mean of the channel with the largest variance.
-/// Source: Wan, Wong, Prusinkiewicz, "An algorithm for multidimensional data clustering", 1988.
+/// no more. Colours are split where that saves most squared error, at the mean of the channel with the largest
+/// variance. Source: Wan, Wong, Prusinkiewicz, "An algorithm for multidimensional data clustering", 1988.
 PaletteImage in_palette(const RgbImage& image, int most_colors);
 
 }  // namespace ppm
