@@ -7,8 +7,8 @@
 namespace ppm {
 
 struct NotchSettings {
-  float angle_most = 1.7453293f;  ///< rad, on the open side, between the two edges of a notch
-  float edge_most = 0.5f;         ///< m, longest edge of a filling face
+  float angle_most = 2.6179939f;  ///< rad, on the open side, between the two edges of a notch
+  float edge_most = 3.0f;         ///< m, longest edge of a filling face
   float cosine_least = 0.2f;      ///< between a filling face and the normals at its vertices
   TriangleSettings triangle;      ///< what the measurement must say
 };
