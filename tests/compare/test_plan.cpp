@@ -115,7 +115,7 @@ comparisons:
              Catch::Contains("SUITE:4:50: 'camera': write node.key"));
 }
 
-TEST_CASE("a sequence may say which frame is read; without sequences a graph keeps its own frames") {
+TEST_CASE("a sequence may say which frame is read, without sequences a graph keeps its own frames") {
   const SuiteFiles files;
   const auto plan = files.plan(kTop + R"(  - name: a
     sequences:
@@ -190,7 +190,7 @@ TEST_CASE("plug-ins of a graph are named by absolute paths in the experiment") {
   CHECK_THAT(compose(graph, "n", {}, mistakes).to_yaml(), Contains("plugins: [/home/me/lib/x.so]"));
 }
 
-TEST_CASE("an optional graph is left out where a module of it is not there; the subject cannot be") {
+TEST_CASE("an optional graph is left out where a module of it is not there, the subject cannot be") {
   const SuiteFiles files;
   write_text(files.folder / "octo.yaml", "name: octo\nnodes:\n  - {name: eye, module: source.synthetic_room}\n  - {name: init, module: map.of_others, in: {frame: eye.frame}}\n");
   write_text(files.folder / "gone.yaml", "name: gone\nplugins: [no_such.so]\nnodes:\n  - {name: eye, module: source.synthetic_room}\n");

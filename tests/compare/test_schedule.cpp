@@ -38,7 +38,7 @@ TEST_CASE("a number of jobs takes the place of the limit by cores") {
   CHECK(started(schedule) == std::vector<int>{0, 1});
 }
 
-TEST_CASE("jobs side by side take no more memory than there is; one that needs more than all runs alone") {
+TEST_CASE("jobs side by side take no more memory than there is, one that needs more than all runs alone") {
   Schedule schedule({job(0, "a", 1, 1, 3 * kGB), job(1, "b", 1, 1, 9 * kGB), job(2, "c", 1, 1, 2 * kGB)}, {8, 0, 5 * kGB});
   CHECK(started(schedule) == std::vector<int>{0, 2});
   schedule.ended(job(0, "a", 1));

@@ -7,7 +7,7 @@
 using namespace ppm;
 using Catch::Matchers::Contains;
 
-TEST_CASE("names of shipped plug-ins are letters, digits and underscores; anything else is a file") {
+TEST_CASE("names of shipped plug-ins are letters, digits and underscores, anything else is a file") {
   CHECK(is_plugin_name("octomap"));
   CHECK(is_plugin_name("my_map2"));
   CHECK_FALSE(is_plugin_name("octomap.so"));

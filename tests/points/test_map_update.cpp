@@ -106,7 +106,7 @@ TEST_CASE("the variance that a point learns is that of the poses' error") {
   CHECK(median_sigma(bad.map()) == Approx(0.0105f).margin(0.003));
 }
 
-TEST_CASE("what has moved away is seen through and goes; what stands stays") {
+TEST_CASE("what has moved away is seen through and goes, what stands stays") {
   Run run;
   const Eigen::AlignedBox3d box(Eigen::Vector3d(-0.3, -0.3, 1.2), Eigen::Vector3d(0.3, 0.3, 1.6));
   run.world.boxes.push_back(box);

@@ -98,7 +98,7 @@ TEST_CASE("an edit finds the nearest point that agrees, as brute force does") {
   CHECK(found > 200);
 }
 
-TEST_CASE("points are added, changed and removed; a parent never changes") {
+TEST_CASE("points are added, changed and removed, a parent never changes") {
   const auto points = random_points(3000, 1.5f, 4);
   const auto parent = with(std::make_shared<PointMap>(0.02), points);
   CHECK(parent->stats().vertices == 3000);

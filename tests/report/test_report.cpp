@@ -72,7 +72,7 @@ TEST_CASE("a finished suite: four files, the same bytes again, nothing from outs
   CHECK(Json::parse(content(suite.path() / "report.json")) == json);
 }
 
-TEST_CASE("paired differences are decided by their interval; the losses come first") {
+TEST_CASE("paired differences are decided by their interval, the losses come first") {
   SuiteFixture suite;
   suite.write();
   const auto json = report_of(suite)["comparisons"][0];
@@ -133,7 +133,7 @@ TEST_CASE("what does not depend on the seed is said to") {
   CHECK_THAT(content(suite.path() / "report.md"), Contains("| 7.90 = |"));
 }
 
-TEST_CASE("a run that failed is listed and counts as worse than any other; one that is missing counts nowhere") {
+TEST_CASE("a run that failed is listed and counts as worse than any other, one that is missing counts nowhere") {
   SuiteFixture suite;
   suite.write();
   for (const int seed : {1, 2, 3}) suite.fail("room", "vdb_2cm", seed, "out of <memory>");
@@ -223,7 +223,7 @@ TEST_CASE("pictures are those of the lowest seed that has any") {
   CHECK_FALSE(shows(3));
 }
 
-TEST_CASE("missing runs are a line a sequence and graph, folded away where they are many; failed ones stand before") {
+TEST_CASE("missing runs are a line a sequence and graph, folded away where they are many, failed ones stand before") {
   SuiteFixture suite;
   suite.write();
   for (const int seed : {1, 3, 4, 5}) std::filesystem::remove_all(suite.run("room", "ppm", seed));
