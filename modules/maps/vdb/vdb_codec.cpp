@@ -1,8 +1,7 @@
 #include "modules/maps/vdb/vdb_codec.hpp"
 
-#include <unordered_map>
-
 #include "framework/core/error.hpp"
+#include "framework/slam/map_parts.hpp"
 #include "modules/maps/vdb/vdb_map.hpp"
 
 // Records: how many tables, tiles and maps; each table of cells; each tile; each map, whose chunks are numbers of tiles or a
@@ -13,22 +12,6 @@ namespace {
 
 using Table = ChunkTable<VdbChunk>;
 using Cells = std::vector<Cell>;
-
-/// Distinct parts in the order in which they are met.
-template <class T>
-class Parts {
- public:
-  std::uint32_t number(const T* part) {
-    const auto [it, added] = number_.emplace(part, static_cast<std::uint32_t>(all_.size()));
-    if (added) all_.push_back(part);
-    return it->second;
-  }
-  const std::vector<const T*>& all() const { return all_; }
-
- private:
-  std::unordered_map<const T*, std::uint32_t> number_;
-  std::vector<const T*> all_;
-};
 
 RecordWriter record_of(const VdbTile& tile) {
   RecordWriter out;
@@ -57,12 +40,6 @@ Cow<VdbTile> take_tile(RecordReader& in) {
   return tile;
 }
 
-template <class T>
-const T& at(const std::vector<T>& parts, std::uint32_t number, const RecordReader& in) {
-  if (number >= parts.size()) in.fail("names a part that is not there");
-  return parts[number];
-}
-
 }  // namespace
 
 struct VdbCodec::Shared {
@@ -71,8 +48,8 @@ struct VdbCodec::Shared {
 };
 
 void VdbCodec::save(const std::vector<const Map*>& maps, RecordFileWriter& file) const {
-  Parts<Cells> cells;
-  Parts<VdbTile> tiles;
+  MapParts<Cells> cells;
+  MapParts<VdbTile> tiles;
   std::vector<RecordWriter> tables;
   for (const Map* map : maps) {
     const auto& grid = static_cast<const VdbMap&>(*map);
@@ -128,12 +105,12 @@ MapHandle VdbCodec::take_map(RecordReader& in, const Shared& shared) {
     in.fail("has settings that no grid can have");
   auto map = std::make_shared<VdbMap>(settings);
   const auto cells = in.take<std::uint32_t>();
-  if (cells != Table::kNone) map->table_ = at(shared.tables, cells, in);
+  if (cells != Table::kNone) map->table_ = part_of(shared.tables, cells, in);
   std::vector<VdbChunk> chunks;
   for (auto n = in.take<std::uint64_t>(); n > 0; --n) {
     VdbChunk chunk;
     const auto number = in.take<std::uint32_t>();
-    if (number != Table::kNone) chunk.tile = at(shared.tiles, number, in);
+    if (number != Table::kNone) chunk.tile = part_of(shared.tiles, number, in);
     in.take(chunk.constant);
     chunks.push_back(std::move(chunk));
   }
