@@ -32,8 +32,8 @@ std::vector<ShippedPlugin> shipped_plugins() {
     ShippedPlugin& plugin = found.emplace_back();
     plugin.name = entry.path().stem().string();
     std::ifstream(entry.path()) >> plugin.package;
-    plugin.library = folder() / (plugin.name + ".so");
-    plugin.built = std::filesystem::exists(plugin.library);
+    plugin.file = folder() / (plugin.name + ".so");
+    plugin.built = std::filesystem::exists(plugin.file);
   }
   std::ranges::sort(found, {}, &ShippedPlugin::name);
   return found;
@@ -59,7 +59,7 @@ std::filesystem::path library_of(const std::string& name, const std::vector<Ship
                             "--optional`) and build ppm again",
                             name, found->package));
   }
-  return found->library;
+  return found->file;
 }
 
 }  // namespace ppm

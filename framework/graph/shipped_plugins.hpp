@@ -10,7 +10,7 @@ namespace ppm {
 struct ShippedPlugin {
   std::string name;
   std::string package;            ///< the Debian package that it is built from
-  std::filesystem::path library;  ///< its file
+  std::filesystem::path file;     ///< the shared library
   bool built = false;             ///< whether the file is there
 };
 

@@ -22,13 +22,6 @@ Cow<PointTile> take_tile(RecordReader& in) {
   return tile;
 }
 
-Table take_cells(RecordReader& in) {
-  Table table;
-  for (const auto& cell : in.take<Cells>()) table.add(cell, {});
-  in.finish();
-  return table;
-}
-
 }  // namespace
 
 struct PointCodec::Shared {
@@ -49,14 +42,8 @@ void PointCodec::save(const std::vector<const Map*>& maps, RecordFileWriter& fil
     for (const auto& chunk : points.table().chunks()) numbers.push_back(tiles.number(chunk.tile.get()));
     out.add(numbers);
   }
-  RecordWriter counts;
-  for (auto n : {cells.all().size(), tiles.all().size(), maps.size()}) counts.add(static_cast<std::uint64_t>(n));
-  file.write(counts);
-  for (const auto* part : cells.all()) {
-    RecordWriter out;
-    out.add(*part);
-    file.write(out);
-  }
+  save_counts({cells.all().size(), tiles.all().size(), maps.size()}, file);
+  save_parts(cells.all(), file);
   for (const auto* tile : tiles.all()) {
     RecordWriter out;
     out.add(tile->points);
@@ -71,10 +58,7 @@ std::vector<MapHandle> PointCodec::load(RecordFileReader& file) const {
   const auto n_maps = counts.take<std::uint64_t>();
   counts.finish();
   Shared shared;
-  for (std::uint64_t i = 0; i < n_cells; ++i) {
-    auto in = file.next(fmt::format("table of cells {}", i));
-    shared.tables.push_back(take_cells(in));
-  }
+  shared.tables = load_tables<Table>(n_cells, file);
   for (std::uint64_t i = 0; i < n_tiles; ++i) {
     auto in = file.next(fmt::format("tile of points {}", i));
     shared.tiles.push_back(take_tile(in));

@@ -13,15 +13,6 @@ using Table = ChunkTable<PpmChunk>;
 using Cells = std::vector<Cell>;
 
 template <class Part>
-void save_parts(const std::vector<const Part*>& parts, RecordFileWriter& file) {
-  for (const auto* part : parts) {
-    RecordWriter out;
-    out.add(*part);
-    file.write(out);
-  }
-}
-
-template <class Part>
 std::vector<Cow<Part>> load_parts(std::uint64_t count, const char* what, RecordFileReader& file) {
   std::vector<Cow<Part>> parts;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -30,13 +21,6 @@ std::vector<Cow<Part>> load_parts(std::uint64_t count, const char* what, RecordF
     in.finish();
   }
   return parts;
-}
-
-/// A table of empty chunks with these cells.
-Table table_of(const Cells& cells) {
-  Table table;
-  for (const auto& cell : cells) table.add(cell, {});
-  return table;
 }
 
 }  // namespace
@@ -59,10 +43,7 @@ void PpmCodec::save(const std::vector<const Map*>& maps, RecordFileWriter& file)
       out.add(textures.number(chunk.texels.get()));
     }
   }
-  RecordWriter counts;
-  for (auto n : {cells.all().size(), geometries.all().size(), textures.all().size(), maps.size()})
-    counts.add(static_cast<std::uint64_t>(n));
-  file.write(counts);
+  save_counts({cells.all().size(), geometries.all().size(), textures.all().size(), maps.size()}, file);
   save_parts(cells.all(), file);
   save_parts(geometries.all(), file);
   save_parts(textures.all(), file);
@@ -82,11 +63,7 @@ std::vector<MapHandle> PpmCodec::load(RecordFileReader& file) const {
   const auto n_textures = counts.take<std::uint64_t>(), n_maps = counts.take<std::uint64_t>();
   counts.finish();
   Shared shared;
-  for (std::uint64_t i = 0; i < n_cells; ++i) {
-    auto in = file.next(fmt::format("table of cells {}", i));
-    shared.tables.push_back(table_of(in.take<Cells>()));
-    in.finish();
-  }
+  shared.tables = load_tables<Table>(n_cells, file);
   shared.geometries = load_parts<Geometry>(n_geometries, "geometry", file);
   shared.textures = load_parts<Texels>(n_textures, "texture", file);
   std::vector<MapHandle> maps;

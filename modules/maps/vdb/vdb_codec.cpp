@@ -62,14 +62,8 @@ void VdbCodec::save(const std::vector<const Map*>& maps, RecordFileWriter& file)
       out.add(chunk.constant);
     }
   }
-  RecordWriter counts;
-  for (auto n : {cells.all().size(), tiles.all().size(), maps.size()}) counts.add(static_cast<std::uint64_t>(n));
-  file.write(counts);
-  for (const auto* part : cells.all()) {
-    RecordWriter out;
-    out.add(*part);
-    file.write(out);
-  }
+  save_counts({cells.all().size(), tiles.all().size(), maps.size()}, file);
+  save_parts(cells.all(), file);
   for (const auto* tile : tiles.all()) file.write(record_of(*tile));
   for (const auto& table : tables) file.write(table);
 }
@@ -80,12 +74,7 @@ std::vector<MapHandle> VdbCodec::load(RecordFileReader& file) const {
   const auto n_maps = counts.take<std::uint64_t>();
   counts.finish();
   Shared shared;
-  for (std::uint64_t i = 0; i < n_cells; ++i) {
-    auto in = file.next(fmt::format("table of cells {}", i));
-    auto& table = shared.tables.emplace_back();
-    for (const auto& cell : in.take<Cells>()) table.add(cell, {});
-    in.finish();
-  }
+  shared.tables = load_tables<Table>(n_cells, file);
   for (std::uint64_t i = 0; i < n_tiles; ++i) {
     auto in = file.next(fmt::format("tile {}", i));
     shared.tiles.push_back(take_tile(in));
